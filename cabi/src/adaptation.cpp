@@ -302,9 +302,9 @@ carreau_status carreau_transfer(carreau_session* session, int32_t components, in
     const std::span<const double> given(required(values, "values"), rows * width);
     carreau::TransferredField result;
     session->monitor.begin_run();
-    session->session.together([&](const carreau::Crew& crew) {
-      carreau::require_same_values(crew, given, {});
-      result = carreau::transfer_field(from, to, given, width, crew, &session->monitor);
+    session->session.together([&](const carreau::Executor& executor) {
+      carreau::require_same_values(executor, given, {});
+      result = carreau::transfer_field(from, to, given, width, executor, &session->monitor);
     });
     std::copy(result.values.begin(), result.values.end(), out_values);
     if (out_outside != nullptr) *out_outside = result.outside;

@@ -12,7 +12,7 @@
 #include "guard.h"
 #include "io/mesh_files.h"
 #include "measure/discrete_evaluation.h"
-#include "mesh/surface_distance.h"
+#include "mesh/distance/surface_distance.h"
 #include "model/geometries.h"
 #include "session/options.h"
 
@@ -194,11 +194,11 @@ carreau_status carreau_triangles_distances(carreau_session* session, double out_
     const discrete::Triangulation& input = surface_of(*session).mesh();
     const FlatMesh flat = mesh_of_triangles(*session);
     session->monitor.begin_run();
-    session->session.together([&](const carreau::Crew& crew) {
+    session->session.together([&](const carreau::Executor& executor) {
       out_distances[0] =
-          largest_distance(flat.vertices, flat.triangles, input.vertices, input.triangles, session->monitor, crew);
+          largest_distance(flat.vertices, flat.triangles, input.vertices, input.triangles, session->monitor, executor);
       out_distances[1] =
-          largest_distance(input.vertices, input.triangles, flat.vertices, flat.triangles, session->monitor, crew);
+          largest_distance(input.vertices, input.triangles, flat.vertices, flat.triangles, session->monitor, executor);
     });
   });
 }
@@ -216,11 +216,11 @@ carreau_status carreau_triangles_bounds(carreau_session* session, double share, 
     carreau::DistanceTolerance tolerance;
     if (share > 0) tolerance.share = share;
     const carreau::TrianglesOfSpace made{flat.vertices, flat.triangles}, given{input.vertices, input.triangles};
-    session->session.together([&](const carreau::Crew& crew) {
+    session->session.together([&](const carreau::Executor& executor) {
       std::vector<carreau::FarPoint> of_made, of_given;
       const carreau::DistanceBounds there =
-                                        bound_distance(made, given, tolerance, crew, session->monitor, nullptr, &of_made),
-                                    back = bound_distance(given, made, tolerance, crew, session->monitor, nullptr, &of_given);
+                                        bound_distance(made, given, tolerance, executor, session->monitor, nullptr, &of_made),
+                                    back = bound_distance(given, made, tolerance, executor, session->monitor, nullptr, &of_given);
       warn_of_distance(farthest_by_size(made, of_made, of_given), session->monitor);
       out_bounds[0] = there.lower, out_bounds[1] = there.upper, out_bounds[2] = back.lower, out_bounds[3] = back.upper;
     });

@@ -10,7 +10,7 @@
 #include "mesh/crossings/intersections.h"
 #include "mesh/defects/flat_defects.h"
 #include "mesh/quality.h"
-#include "mesh/regions/regions.h"
+#include "mesh/regions.h"
 #include "mesh_content.h"
 
 using carreau::FlatMesh;

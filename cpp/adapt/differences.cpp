@@ -69,14 +69,17 @@ std::vector<double> steps_of(std::span<const Vec3> vertices, std::span<const std
 }
 
 // Functions of the ranks, at every so many points.
-void require_same_function(std::span<const Vec3> points, const FieldFunction& exact, Team& team) {
-  std::vector<Vec3> some;
-  for (std::size_t i = 0; i < points.size(); i += work_sizes::places_of_one_compared) some.push_back(points[i]);
-  std::vector<double> values(some.size());
-  exact(some, values);
-  LongChecksum sum;
-  sum.add(some), sum.add(values);
-  team.require_same<InvalidModel>("field", sum.text(), [](int rank) {
+void require_same_function(std::span<const Vec3> points, const FieldFunction& exact, const Executor& executor) {
+  const auto sum_of_values = [&] {
+    std::vector<Vec3> some;
+    for (std::size_t i = 0; i < points.size(); i += work_sizes::places_of_one_compared) some.push_back(points[i]);
+    std::vector<double> values(some.size());
+    exact(some, values);
+    LongChecksum sum;
+    sum.add(some), sum.add(values);
+    return sum.text();
+  };
+  executor.require_same<InvalidModel>("field", sum_of_values, [](int rank) {
     return "the field differs on rank " + std::to_string(rank) +
            " from rank 0: its callback differs, or its parameters do";
   });
@@ -110,16 +113,16 @@ std::vector<LocalDerivatives> difference_derivatives(std::span<const Vec3> point
   return derivatives;
 }
 
-FieldFunction shared_function(const FieldFunction& exact, const Crew& crew, Monitor& monitor) {
-  if (crew.team == nullptr) return exact;
-  return [&exact, crew, &monitor](std::span<const Vec3> points, std::span<double> values) {
-    require_same_function(points, exact, *crew.team);
+FieldFunction shared_function(const FieldFunction& exact, const Executor& executor, Monitor& monitor) {
+  if (executor.is_alone()) return exact;
+  return [&exact, executor, &monitor](std::span<const Vec3> points, std::span<double> values) {
+    require_same_function(points, exact, executor);
     const auto ask = [&](std::size_t first, std::size_t last, double* out, Monitor&) {
       exact(points.subspan(first, last - first), {out, last - first});
     };
     const std::size_t n = points.size();
     const std::vector<double> all = shared_rows(
-        crew, "values of a field", {.count = n, .at_once = work_sizes::piece_of(n), .bound = true}, ask, monitor);
+        executor, "values of a field", {.count = n, .at_once = work_sizes::piece_of(n), .bound = true}, ask, monitor);
     std::ranges::copy(all, values.begin());
   };
 }
@@ -131,7 +134,7 @@ double estimated_error(const ScalarField& field, const FieldFunction& exact, con
 
 VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
                                       std::span<const std::array<std::int32_t, 3>> triangles,
-                                      const FieldFunction& exact, const EstimatorOptions& options, const Crew& crew,
+                                      const FieldFunction& exact, const EstimatorOptions& options, const Executor& executor,
                                       Monitor* monitor) {
   for (const Vec3& p : vertices)
     if (p.z() != 0)
@@ -140,7 +143,7 @@ VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
   std::vector<double> values(fine.vertices.size());
   exact(fine.vertices, values);
   const VertexPrescriptions all = estimate({fine.vertices, fine.triangles, values},
-                                           difference_derivatives(fine.vertices, steps_of(fine.vertices, fine.triangles, 0.5), exact), options, crew,
+                                           difference_derivatives(fine.vertices, steps_of(fine.vertices, fine.triangles, 0.5), exact), options, executor,
                                            monitor);
   VertexPrescriptions result = all;
   for (std::size_t e = 0; e < fine.edges.size(); ++e) {

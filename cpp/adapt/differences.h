@@ -26,7 +26,7 @@ std::vector<LocalDerivatives> difference_derivatives(std::span<const Vec3> point
 /// Threads and processes share the estimate; the calling thread evaluates `exact` at all points. Throws the exceptions of estimate().
 VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
                                       std::span<const std::array<std::int32_t, 3>> triangles,
-                                      const FieldFunction& exact, const EstimatorOptions& options, const Crew& crew = {},
+                                      const FieldFunction& exact, const EstimatorOptions& options, const Executor& executor = {},
                                       Monitor* monitor = nullptr);
 
 /// estimated_error() by derivatives of the field itself, with these steps.
@@ -35,6 +35,6 @@ double estimated_error(const ScalarField& field, const FieldFunction& exact, con
 /// Returns a function whose values the processes share: each evaluates its own `exact` at some of the points, and all receive all values.
 /// Each process also evaluates some compared points: InvalidModel names the rank if its values differ from the values of rank 0. For a
 /// single process it is `exact` itself. References only. All processes call it together.
-FieldFunction shared_function(const FieldFunction& exact, const Crew& crew, Monitor& monitor);
+FieldFunction shared_function(const FieldFunction& exact, const Executor& executor, Monitor& monitor);
 
 }  // namespace carreau

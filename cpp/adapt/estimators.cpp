@@ -184,8 +184,8 @@ struct PlaneMetrics {
 
 /// Distributes rows by vertex.
 struct Sharing {
-  Sharing(const Crew& of, Monitor* told) : crew(of), monitor(told != nullptr ? *told : silent) {}
-  Crew crew;
+  Sharing(const Executor& of, Monitor* told) : executor(of), monitor(told != nullptr ? *told : silent) {}
+  Executor executor;
   Monitor silent;
   Monitor& monitor;
 
@@ -200,7 +200,7 @@ struct Sharing {
       }
     };
     const std::vector<double> rows =
-        shared_rows(crew, "metrics of a field", {.count = n, .width = width, .at_once = work_sizes::piece_of(n)}, fill, monitor);
+        shared_rows(executor, "metrics of a field", {.count = n, .width = width, .at_once = work_sizes::piece_of(n)}, fill, monitor);
     std::vector<Metric2> result;
     result.reserve(n);
     for (const double* row = rows.data(); result.size() < n; row += width) result.push_back({row[0], row[1], row[2]});
@@ -232,7 +232,7 @@ std::vector<LocalDerivatives> derivatives_of(const ScalarField& field, const Est
     case Recovery::fit:
       break;
   }
-  return recover_derivatives(field, sharing.crew, &sharing.monitor);
+  return recover_derivatives(field, sharing.executor, &sharing.monitor);
 }
 
 PlaneMetrics intersection_of(std::vector<PlaneMetrics> each, Sharing& sharing) {
@@ -267,8 +267,8 @@ VertexPrescriptions prescriptions_of(const PlaneMetrics& found, const std::vecto
 }  // namespace
 
 VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
-                             const EstimatorOptions& options, const Crew& crew, Monitor* monitor) {
-  Sharing sharing(crew, monitor);
+                             const EstimatorOptions& options, const Executor& executor, Monitor* monitor) {
+  Sharing sharing(executor, monitor);
   return prescriptions_of(plane_metrics(field, derivatives, options, sharing), derivatives, options.shape);
 }
 
@@ -285,28 +285,28 @@ double estimated_error(const ScalarField& field, const std::vector<LocalDerivati
   return largest;
 }
 
-double estimated_error(const ScalarField& field, const EstimatorOptions& options, const Crew& crew, Monitor* monitor) {
+double estimated_error(const ScalarField& field, const EstimatorOptions& options, const Executor& executor, Monitor* monitor) {
   check_field(field);
-  Sharing sharing(crew, monitor);
+  Sharing sharing(executor, monitor);
   return estimated_error(field, derivatives_of(field, options, sharing), options);
 }
 
-VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options, const Crew& crew,
+VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options, const Executor& executor,
                              Monitor* monitor) {
   check_field(field);
   check_options(field, options);
-  Sharing sharing(crew, monitor);
-  return estimate(field, derivatives_of(field, options, sharing), options, crew, monitor);
+  Sharing sharing(executor, monitor);
+  return estimate(field, derivatives_of(field, options, sharing), options, executor, monitor);
 }
 
 VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
                                  std::span<const std::array<std::int32_t, 3>> triangles,
                                  std::span<const double> values, std::size_t fields, const EstimatorOptions& options,
-                                 const Crew& crew, Monitor* monitor) {
+                                 const Executor& executor, Monitor* monitor) {
   if (fields == 0 || values.size() != fields * vertices.size())
     throw InvalidArgument("an estimator needs a value of each of " + std::to_string(fields) + " fields at each of " +
                           std::to_string(vertices.size()) + " vertices; there are " + std::to_string(values.size()));
-  Sharing sharing(crew, monitor);
+  Sharing sharing(executor, monitor);
   std::vector<double> one(vertices.size());
   std::vector<LocalDerivatives> derivatives;
   std::vector<PlaneMetrics> each;
@@ -323,12 +323,12 @@ VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
 
 double estimated_error_of_all(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                               std::span<const double> values, std::size_t fields, const EstimatorOptions& options,
-                              const Crew& crew, Monitor* monitor) {
+                              const Executor& executor, Monitor* monitor) {
   double largest = 0;
   std::vector<double> one(vertices.size());
   for (std::size_t f = 0; f < fields; ++f) {
     for (std::size_t v = 0; v < one.size(); ++v) one[v] = values[v * fields + f];
-    largest = std::max(largest, estimated_error({vertices, triangles, one}, options, crew, monitor));
+    largest = std::max(largest, estimated_error({vertices, triangles, one}, options, executor, monitor));
   }
   return largest;
 }

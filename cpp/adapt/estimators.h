@@ -55,8 +55,8 @@ struct VertexPrescriptions {
 
 /// Prescribes at each vertex of field's mesh. Throws InvalidArgument unless 0 < hmin <= hmax, tolerance > 0 and ratio
 /// >= 1, and the exceptions of check_field. For `curvature`, `deformation` and `graph` the mesh is in the plane z = 0.
-/// The result does not depend on the crew; `monitor` may be null.
-VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options, const Crew& crew = {},
+/// The result does not depend on the executor; `monitor` may be null.
+VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options, const Executor& executor = {},
                              Monitor* monitor = nullptr);
 
 /// For several fields on one mesh at once: the smallest of the sizes, or the intersection of the metrics in the mesh's
@@ -65,21 +65,21 @@ VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& o
 VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
                                  std::span<const std::array<std::int32_t, 3>> triangles,
                                  std::span<const double> values, std::size_t fields, const EstimatorOptions& options,
-                                 const Crew& crew = {}, Monitor* monitor = nullptr);
+                                 const Executor& executor = {}, Monitor* monitor = nullptr);
 
 /// The largest estimated_error() of several fields on one mesh, as estimate_all() has them.
 double estimated_error_of_all(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                               std::span<const double> values, std::size_t fields, const EstimatorOptions& options,
-                              const Crew& crew = {}, Monitor* monitor = nullptr);
+                              const Executor& executor = {}, Monitor* monitor = nullptr);
 
 /// Prescribes by derivatives that are already known (an exact Hessian, project_derivatives()).
 VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
-                             const EstimatorOptions& options, const Crew& crew = {}, Monitor* monitor = nullptr);
+                             const EstimatorOptions& options, const Executor& executor = {}, Monitor* monitor = nullptr);
 
 /// Estimates the largest error of the field on its mesh, in the unit of `tolerance`, from the derivatives at both ends of each edge d.
 /// Hessian: 2/9 |d^T H d| (HDR eq. 3.3). Curvature: angle between the edge of the graph and the tangent plane. Deformation: distance of
 /// the edge's other end from the tangent plane. Bounds of sizes do not count. Throws the exceptions of estimate().
-double estimated_error(const ScalarField& field, const EstimatorOptions& options, const Crew& crew = {}, Monitor* monitor = nullptr);
+double estimated_error(const ScalarField& field, const EstimatorOptions& options, const Executor& executor = {}, Monitor* monitor = nullptr);
 double estimated_error(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives, const EstimatorOptions& options);
 
 }  // namespace carreau

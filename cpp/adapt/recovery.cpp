@@ -269,7 +269,7 @@ std::vector<LocalDerivatives> quadric_derivatives(const ScalarField& field) {
   return result;
 }
 
-std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, const Crew& crew, Monitor* monitor) {
+std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, const Executor& executor, Monitor* monitor) {
   check_field(field);
   const std::vector<VertexFrame> frames = frames_of(field);
   const Neighbours neighbours = neighbours_of(field.vertices.size(), field.triangles);
@@ -282,7 +282,7 @@ std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, cons
   };
   Monitor silent;
   const std::vector<double> rows =
-      shared_rows(crew, "derivatives of a field", {.count = frames.size(), .width = row_width, .at_once = work_sizes::piece_of(frames.size())}, fit,
+      shared_rows(executor, "derivatives of a field", {.count = frames.size(), .width = row_width, .at_once = work_sizes::piece_of(frames.size())}, fit,
                   monitor != nullptr ? *monitor : silent);
   std::vector<LocalDerivatives> result;
   result.reserve(frames.size());

@@ -7,7 +7,7 @@
 
 #include "adapt/scalar_field.h"
 #include "metric/metric2.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 
 namespace carreau {
 
@@ -30,9 +30,9 @@ struct LocalDerivatives {
 /// ones. The neighbours are two rings, or three if two do not determine the polynomial (at the boundary). Exact on
 /// quadratics. On smooth fields the gradient has an error of order 2, the Hessian of order 1 (2 where neighbours lie
 /// symmetrically). The plane of a vertex is normal to the mean of its triangles' normals weighted by area. The result
-/// does not depend on the crew. Throws the exceptions of check_field, and Cancelled soon after a stop of `monitor`,
+/// does not depend on the executor. Throws the exceptions of check_field, and Cancelled soon after a stop of `monitor`,
 /// which may be null.
-std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, const Crew& crew = {},
+std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field, const Executor& executor = {},
                                                   Monitor* monitor = nullptr);
 
 /// The integral of each triangle's gradient, averaged over the triangles of a vertex by area, twice: the double L2

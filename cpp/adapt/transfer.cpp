@@ -177,9 +177,9 @@ class Transfer {
     list_rows();
   }
 
-  TransferredField run(const Crew& crew, Monitor& monitor) {
+  TransferredField run(const Executor& executor, Monitor& monitor) {
     Pieces pieces([&](std::size_t i) { return old_faces_[i] != nullptr ? piece_of(from_, *old_faces_[i], at_nodes_) : piece_of(from_, at_nodes_); },
-                  static_cast<std::size_t>(std::max(crew.threads, 1)) + 1);
+                  static_cast<std::size_t>(std::max(executor.threads, 1)) + 1);
     const std::size_t width = components_ + 1;
     const auto look_up = [&](std::size_t first, std::size_t last, double* out, Monitor& of_task) {
       std::int32_t guess = 0;
@@ -191,7 +191,7 @@ class Transfer {
       }
     };
     const std::vector<double> found = shared_rows(
-        crew, "fields on the next mesh", {.count = rows_.size(), .width = width, .at_once = work_sizes::piece_of(rows_.size())}, look_up, monitor);
+        executor, "fields on the next mesh", {.count = rows_.size(), .width = width, .at_once = work_sizes::piece_of(rows_.size())}, look_up, monitor);
     return gathered(found, width);
   }
 
@@ -290,7 +290,7 @@ class Transfer {
 std::size_t node_count(const SurfaceMesh& mesh) noexcept { return mesh.vertices.size() + mesh.mid_vertices.size(); }
 
 TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values,
-                                std::size_t components, const Crew& crew, Monitor* monitor) {
+                                std::size_t components, const Executor& executor, Monitor* monitor) {
   if (components == 0) throw InvalidArgument("a field to be transferred has one component at least");
   if (values.size() != from.vertices.size() * components && values.size() != node_count(from) * components)
     throw InvalidArgument(
@@ -300,7 +300,7 @@ TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, 
         ", with " + std::to_string(components) + " values each");
   if (from.triangle_count() == 0) throw InvalidArgument("a field cannot be transferred from a mesh without triangles");
   Monitor silent;
-  return Transfer(from, to, values, components).run(crew, monitor != nullptr ? *monitor : silent);
+  return Transfer(from, to, values, components).run(executor, monitor != nullptr ? *monitor : silent);
 }
 
 InterpolationError interpolation_error(const ScalarField& field, const FieldFunction& exact, double relative_floor) {

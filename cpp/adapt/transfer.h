@@ -30,11 +30,11 @@ std::size_t node_count(const SurfaceMesh& mesh) noexcept;
 /// elements of second order their shape functions interpolate: exact for quadratic fields on plane elements with
 /// straight sides, and of third order on surfaces. Values at vertices alone give values at vertices alone, for all
 /// elements.
-/// The result does not depend on the crew; `monitor` may be null.
+/// The result does not depend on the executor; `monitor` may be null.
 /// Throws InvalidArgument unless `values` holds `components` > 0 numbers for each vertex of `from`, or for each node,
 /// or when `from` has no triangle.
 TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values,
-                                std::size_t components, const Crew& crew = {}, Monitor* monitor = nullptr);
+                                std::size_t components, const Executor& executor = {}, Monitor* monitor = nullptr);
 
 /// Distance between a field and its linear interpolation on a mesh, in the field's unit.
 struct InterpolationError {

@@ -276,7 +276,7 @@ class Refiner {
 
   template <typename Use>
   void evaluate(int ref, const std::vector<Vec2>& uv, const Use& use) {
-    const int threads = asks_from_threads(options_, model_.cad) ? options_.threads : 1;
+    const int threads = asks_from_threads(options_, model_.cad) ? options_.executor.threads : 1;
     for_batches(model_.cad, ref, want_position, uv, threads, monitor_, [&](std::size_t first, std::span<const Vec2> here, std::span<const SurfaceJet> jets) {
       for (std::size_t k = 0; k < here.size(); ++k) use(first + k, jets[k].s);
     });

@@ -12,7 +12,7 @@
 
 #include "metric/metric2.h"
 #include "predicates/polygon_locator.h"
-#include "support/segmented_array.h"
+#include "support/memory/segmented_array.h"
 
 namespace carreau::detail {
 

@@ -9,7 +9,7 @@
 
 #include "control_space/control_space.h"
 #include "control_space/lattice.h"
-#include "support/segmented_array.h"
+#include "support/memory/segmented_array.h"
 
 namespace carreau::detail {
 

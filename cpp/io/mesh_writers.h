@@ -43,7 +43,7 @@ std::string obj_text(const FlatMesh& mesh);
 std::string ply_bytes(const FlatMesh& mesh);
 /// Cart3D: straight triangles alone.
 std::string tri_text(const FlatMesh& mesh);
-/// For programs that fill solids (mesh/regions/regions.h): TetGen's .smesh or .poly, Netgen's .vol, and a script of Gmsh for the
+/// For programs that fill solids (mesh/regions.h): TetGen's .smesh or .poly, Netgen's .vol, and a script of Gmsh for the
 /// surface in the file `surface`. InvalidArgument when the surface is open.
 std::string tetgen_text(const FlatMesh& mesh, bool poly);
 std::string netgen_text(const FlatMesh& mesh);

@@ -7,7 +7,7 @@
 #include "cad/fundamental_forms.h"
 #include "measure/base/thresholds.h"
 #include "measure/composite_evaluation.h"
-#include "mesh/surface_distance.h"
+#include "mesh/distance/surface_distance.h"
 #include "support/infinity.h"
 #include "support/shares.h"
 #include "surface/discrete/start_mesh.h"

@@ -4,7 +4,7 @@
 
 #include "geometry/discrete/discrete_cad.h"
 #include "measure/mesh_evaluation.h"
-#include "mesh/surface_distance.h"
+#include "mesh/distance/surface_distance.h"
 #include "surface/options.h"
 #include "surface/result.h"
 

@@ -72,7 +72,7 @@ enum class EvaluationKind : int {
   deviation_bound = 13,
   angle_bound = 14,
   bound_share = 15,
-  /// A straight triangle's upper bound of the distance to the input triangles (mesh/surface_distance); model length. NaN if not requested,
+  /// A straight triangle's upper bound of the distance to the input triangles (mesh/distance); model length. NaN if not requested,
   /// and for other geometries.
   input_bound = 16,
 };

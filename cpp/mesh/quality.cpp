@@ -13,8 +13,8 @@
 
 #include "mesh/vertex_hash.h"
 #include "support/infinity.h"
+#include "support/memory/unfilled.h"
 #include "support/stepped_tasks.h"
-#include "support/unfilled.h"
 
 namespace carreau {
 

@@ -20,9 +20,9 @@ void reject_degenerate(CompositeRun& run) {
   std::vector<std::string> why(run.patches.size());
   for (std::size_t f = 0; f < run.patches.size(); ++f)
     if (run.patches[f])
-      why[f] = degenerate_inside(run.model.faces[f].ref, *run.domains.domain[f], *run.patches[f], run.options.threads,
+      why[f] = degenerate_inside(run.model.faces[f].ref, *run.domains.domain[f], *run.patches[f], run.options.executor.threads,
                                  run.monitor);
-  if (run.options.parts) share_sentences(*run.options.team, why);
+  if (run.options.parts) share_sentences(*run.options.executor.team, why);
   for (std::size_t f = 0; f < run.patches.size(); ++f) {
     if (why[f].empty()) continue;
     run.fail(f, why[f]);

@@ -114,7 +114,7 @@ void discretise_curves(CompositeRun& run) {
     run.show_progress(Phase::curves, run.topology.curves[begin].ref,
              curves_share * static_cast<double>(begin) / static_cast<double>(n));
     run_each(
-        end - begin, alone, run.options.threads, [&](std::size_t i, Monitor&) { cut_curve(run, begin + i, shared); },
+        end - begin, alone, run.options.executor.threads, [&](std::size_t i, Monitor&) { cut_curve(run, begin + i, shared); },
         run.monitor);
     for (std::size_t c = begin; c < end; ++c) {
       edges += run.curves[c].segments();

@@ -99,7 +99,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   if (layers != nullptr) run.layers = layer_curves(model, topology, layers->given, options);
   if (run.options.parts && !run.layers.empty()) run.make_whole();
   const auto agree = [&] {
-    if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);
+    if (options.executor.team != nullptr) run.options.max_triangles = least_of(*options.executor.team, run.options.max_triangles);
   };
   agree();
   grade_sizes(run);

@@ -75,8 +75,8 @@ PatchInput input_of(PatchJobs& work, std::size_t f, std::vector<EdgeSizes::Sourc
           .isotropic = run.isotropic(),
           .limits = bound,
           .slope = run.slope(),
-          .threads = run.options.threads,
-          .host_threads = asks_from_threads(run.options, run.cad) ? run.options.threads : 1};
+          .executor = run.options.executor.alone(),
+          .host_threads = asks_from_threads(run.options, run.cad) ? run.options.executor.threads : 1};
 }
 
 void keep_patch(PatchJobs& work, std::size_t f, FaceOutcome& outcome) {
@@ -176,7 +176,7 @@ void mesh_here(PatchJobs& work) {
   CompositeRun& run = work.run;
   tell_progress(work, 0);
   const auto finished = [&](std::size_t i) { finish(work, i, static_cast<FaceJob&>(*work.jobs[i]).take_outcome()); };
-  run_stepped(work.jobs, {.threads = run.options.threads, .order = order_of_jobs(work), .on_finished = finished},
+  run_stepped(work.jobs, {.threads = run.options.executor.threads, .order = order_of_jobs(work), .on_finished = finished},
               run.monitor);
 }
 
@@ -194,7 +194,7 @@ void mesh_in_team(PatchJobs& work, Team& team) {
               .order = std::move(order),
               .expected = std::move(expected),
               .least_shared = plane::triangles_a_piece,
-              .threads = run.options.threads,
+              .threads = run.options.executor.threads,
               .parts = run.options.parts,
               .on_begun =
                   [&](std::size_t i, std::size_t begun) {
@@ -228,7 +228,7 @@ void start_result(CompositeRun& run) {
 
 // All have made the patch.
 void keep_in_turn(CompositeRun& run, std::size_t i, std::size_t f) {
-  const Team& team = *run.options.team;
+  const Team& team = *run.options.executor.team;
   run.keeper[f] = static_cast<int>(i % static_cast<std::size_t>(team.size()));
   if (run.keeper[f] != team.rank()) run.patches[f].reset();
 }
@@ -265,13 +265,13 @@ void mesh_patches(CompositeRun& run) {
   PatchJobs work{.run = run};
   work.left = run.options.max_triangles;
   // Narrow faces may be meshed twice in a round, and the spaces belong to the second mesh.
-  if (run.options.crossing_rounds > 0 && run.narrow.empty() && run.options.team == nullptr)
+  if (run.options.crossing_rounds > 0 && run.narrow.empty() && run.options.executor.team == nullptr)
     run.known.begin(run.model.faces.size());
   else
     run.known.clear();
   make_jobs(work);
-  if (run.options.team != nullptr)
-    mesh_in_team(work, *run.options.team);
+  if (run.options.executor.team != nullptr)
+    mesh_in_team(work, *run.options.executor.team);
   else
     mesh_here(work);
   if (!run.periodic.empty()) carry_all(work);

@@ -108,9 +108,8 @@ void carry_patches(CompositeRun& run) {
 
 // A chord that is divided on one face of a pair is divided on the other one.
 void separate_shared_chords(CompositeRun& run) {
-  Team* team = run.options.parts ? run.options.team : nullptr;
   const auto separate = [&] {
-    separate_chords(run.model, run.topology, run.domains, run.curves, run.cad, run.patches, run.options.threads, team, run.monitor);
+    separate_chords(run.model, run.topology, run.domains, run.curves, run.cad, run.patches, run.options.executor.shared_if(run.options.parts), run.monitor);
   };
   if (run.periodic.empty()) return separate();
   for (int round = 0; round < max_chord_rounds; ++round) {

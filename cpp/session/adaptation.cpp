@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/adaptation.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "mesh/elements/over_nodes.h"
-#include "session/bounds_of_sizes.h"
+#include "metric/metric3_algebra.h"
 #include "support/format.h"
 
 namespace carreau {
@@ -100,11 +101,11 @@ class Loop {
   }
 
   /// Estimates the error on the session's mesh, whose values are values_.
-  [[nodiscard]] double estimate_of(const FlatMesh& mesh, const InterpolationError& error, const FieldFunction& field, const Crew& crew) {
+  [[nodiscard]] double estimate_of(const FlatMesh& mesh, const InterpolationError& error, const FieldFunction& field, const Executor& executor) {
     const EstimatorOptions options = with_bounds(session_, options_.estimator);
     if (options.source == ErrorSource::hessian) return options.relative ? error.largest_share : error.largest;
     const ScalarField on_mesh{mesh.vertices, mesh.triangles, values_};
-    return options_.differences ? estimated_error(on_mesh, field, options) : estimated_error(on_mesh, options, crew, &monitor_);
+    return options_.differences ? estimated_error(on_mesh, field, options) : estimated_error(on_mesh, options, executor, &monitor_);
   }
 
   VertexPrescriptions estimated() {
@@ -119,14 +120,14 @@ class Loop {
     const FlatMesh mesh = straight_mesh(own, node_count(own));
     values_.resize(mesh.vertices.size());
     AdaptationStep step;
-    session_.together([&](const Crew& crew) {
-      const FieldFunction field = shared_function(field_, crew, monitor_);
+    session_.together([&](const Executor& executor) {
+      const FieldFunction field = shared_function(field_, executor, monitor_);
       field(mesh.vertices, values_);
       monitor_.checkpoint();
       const double floor = options_.estimator.relative_floor;
       step.error = own.mid_vertices.empty() ? interpolation_error({mesh.vertices, mesh.triangles, values_}, field, floor)
                                             : interpolation_error(own, values_, field, floor);
-      step.estimate = estimate_of(mesh, step.error, field, crew);
+      step.estimate = estimate_of(mesh, step.error, field, executor);
     });
     step.vertices = static_cast<std::int64_t>(mesh.vertices.size());
     step.triangles = static_cast<std::int64_t>(own.triangle_count());
@@ -153,9 +154,9 @@ class Loop {
 
 }  // namespace
 
-void require_same_values(const Crew& crew, std::span<const double> values, const EstimatorOptions& options) {
-  if (crew.team == nullptr) return;
-  crew.team->require_same<InvalidModel>("estimate", checksum_of(values, options), [](int rank) {
+void require_same_values(const Executor& executor, std::span<const double> values, const EstimatorOptions& options) {
+  if (executor.team == nullptr) return;
+  executor.team->require_same<InvalidModel>("estimate", checksum_of(values, options), [](int rank) {
     return "the values of the field, or the options, differ on rank " + std::to_string(rank) + " from rank 0";
   });
 }
@@ -171,9 +172,9 @@ VertexPrescriptions estimate_on_mesh(Session& session, std::span<const double> v
   const FlatMesh mesh = straight_mesh(session.mesh(), values.size());
   options = with_bounds(session, options);
   VertexPrescriptions wanted;
-  session.together([&](const Crew& crew) {
-    require_same_values(crew, values, options);
-    wanted = estimate({mesh.vertices, mesh.triangles, values}, options, crew, &session.monitor());
+  session.together([&](const Executor& executor) {
+    require_same_values(executor, values, options);
+    wanted = estimate({mesh.vertices, mesh.triangles, values}, options, executor, &session.monitor());
   });
   return wanted;
 }
@@ -182,9 +183,9 @@ VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& fiel
   const FlatMesh mesh = straight_mesh(session.mesh(), node_count(session.mesh()));
   options = with_bounds(session, options);
   VertexPrescriptions wanted;
-  session.together([&](const Crew& crew) {
-    require_same_values(crew, {}, options);
-    wanted = estimate_function(mesh.vertices, mesh.triangles, shared_function(field, crew, session.monitor()), options, crew,
+  session.together([&](const Executor& executor) {
+    require_same_values(executor, {}, options);
+    wanted = estimate_function(mesh.vertices, mesh.triangles, shared_function(field, executor, session.monitor()), options, executor,
                                &session.monitor());
   });
   return wanted;
@@ -193,8 +194,39 @@ VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& fiel
 AdaptationReport adapt(Session& session, const FieldFunction& field, const AdaptationOptions& options,
                        Monitor& monitor) {
   AdaptationReport report;
-  session.together([&](const Crew&) { report = Loop(session, field, options, monitor).run(); });
+  session.together([&](const Executor&) { report = Loop(session, field, options, monitor).run(); });
   return report;
+}
+
+SizeRange range_of(const VertexPrescriptions& prescriptions) {
+  SizeRange range;
+  for (const double h : prescriptions.sizes) {
+    range.low = std::min(range.low, h);
+    range.high = std::max(range.high, h);
+  }
+  // Across the surface a metric has the smaller of its two sizes.
+  for (const Metric3& m : prescriptions.metrics) {
+    const Eigen3 e = eigen(m);
+    range.low = std::min(range.low, 1 / std::sqrt(e.value[0]));
+    range.high = std::max(range.high, 1 / std::sqrt(e.value[2]));
+    range.stretch = std::max(range.stretch, std::sqrt(e.value[0] / e.value[2]));
+  }
+  return range;
+}
+
+OpenBounds::OpenBounds(Parameters& parameters, SizeRange range) : parameters_(parameters) {
+  open("hphymin", range.low * (1 - 1e-12));
+  open("hphymax", range.high * (1 + 1e-12));
+}
+
+OpenBounds::~OpenBounds() {
+  for (const char* name : opened_) parameters_.reset(name);
+}
+
+void OpenBounds::open(const char* name, double value) {
+  if (parameters_.is_set(name)) return;
+  parameters_.set(name, value);
+  opened_.push_back(name);
 }
 
 }  // namespace carreau

@@ -2,6 +2,7 @@
 // The loop of RR-2928 sec. 2.2 and HDR sec. 1.2: mesh, estimate, a new field on the mesh's vertices, mesh again.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -9,18 +10,52 @@
 
 #include "adapt/estimators.h"
 #include "adapt/transfer.h"
+#include "session/parameters.h"
 #include "session/session.h"
 #include "size/background.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 
 namespace carreau {
+
+/// Smallest and largest size, largest ratio of the two in the tangent plane.
+struct SizeRange {
+  double low = HUGE_VAL, high = 0, stretch = 1;
+};
+
+SizeRange range_of(const VertexPrescriptions& prescriptions);
+
+/// While this object lives, the prescriptions supply the bounds that the user has not set.
+class OpenBounds {
+ public:
+  OpenBounds(Parameters& parameters, SizeRange range);
+  ~OpenBounds();
+  OpenBounds(const OpenBounds&) = delete;
+  OpenBounds& operator=(const OpenBounds&) = delete;
+
+ private:
+  void open(const char* name, double value);
+  Parameters& parameters_;
+  std::vector<const char*> opened_;
+};
+
+/// Takes the background mesh away in the end.
+class NoBackgroundAfterwards {
+ public:
+  explicit NoBackgroundAfterwards(Session& session) : session_(session) {}
+  ~NoBackgroundAfterwards() { session_.set_background(nullptr); }
+  NoBackgroundAfterwards(const NoBackgroundAfterwards&) = delete;
+  NoBackgroundAfterwards& operator=(const NoBackgroundAfterwards&) = delete;
+
+ private:
+  Session& session_;
+};
 
 /// The session's mesh with sizes or metrics at its vertices, for the next mesh. Elements of second order have values at all
 /// nodes (node_count), or at their corners alone.
 std::shared_ptr<BackgroundField> background_of(const Session& session, VertexValues values);
 
 /// With a team: throws InvalidModel, which names the first rank that has other values or options than rank 0.
-void require_same_values(const Crew& crew, std::span<const double> values, const EstimatorOptions& options);
+void require_same_values(const Executor& executor, std::span<const double> values, const EstimatorOptions& options);
 
 /// Sizes or metrics from values at the vertices of the session's mesh, by all processes of its team together. Elements of second order have
 /// values at all nodes, or at their corners alone; the sizes are for straight elements in either case. Bounds of 0 are replaced by hphymin

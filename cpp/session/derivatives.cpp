@@ -61,7 +61,7 @@ void check_derivatives(const Model& model, const ModelSupports& supports, Cad& c
       take(find_wrong_curve_derivatives(cad, model.faces[f].ref, static_cast<int>(c) + 1, middle, range, second));
     }
   };
-  run_each(model.faces.size(), !cad.reentrant(), options.threads, look, monitor);
+  run_each(model.faces.size(), !cad.reentrant(), options.executor.threads, look, monitor);
   std::vector<WrongDerivative> wrong;
   for (const auto& some : of_face) wrong.insert(wrong.end(), some.begin(), some.end());
   if (wrong.empty()) return;

@@ -18,7 +18,6 @@
 #include "metric/metric2_algebra.h"
 #include "metric/metric3_algebra.h"
 #include "session/adaptation.h"
-#include "session/bounds_of_sizes.h"
 
 namespace carreau {
 
@@ -226,11 +225,11 @@ EstimatedFields estimate_fields(Session& session, const FlatMesh& mesh, const So
   const std::vector<double> values = scalars_of(fields, path);
   const EstimatorOptions options = estimator_of(session.parameters(), mesh.vertices);
   EstimatedFields result{.wanted = {}, .error = 0, .tolerance = options.tolerance};
-  session.together([&](const Crew& crew) {
-    require_same_values(crew, values, options);
+  session.together([&](const Executor& executor) {
+    require_same_values(executor, values, options);
     Monitor& monitor = session.monitor();
-    result.wanted = estimate_all(mesh.vertices, mesh.triangles, values, fields.components(), options, crew, &monitor);
-    result.error = estimated_error_of_all(mesh.vertices, mesh.triangles, values, fields.components(), options, crew, &monitor);
+    result.wanted = estimate_all(mesh.vertices, mesh.triangles, values, fields.components(), options, executor, &monitor);
+    result.error = estimated_error_of_all(mesh.vertices, mesh.triangles, values, fields.components(), options, executor, &monitor);
   });
   return result;
 }
@@ -272,12 +271,12 @@ Solution in_dimension(const Solution& fields, int dimension, const std::string& 
   return result;
 }
 
-/// Returns the number of vertices outside. One process of a crew writes. `values`: the values of `fields` at the nodes
+/// Returns the number of vertices outside. One process of a executor writes. `values`: the values of `fields` at the nodes
 /// of `from`.
 std::int64_t write_transferred(Session& session, const SurfaceMesh& from, const std::vector<double>& values, const Solution& fields,
-                               const std::string& sol_path, const std::string& out_path, const Crew& crew) {
-  TransferredField moved = transfer_field(from, session.mesh(), values, fields.components(), crew, &session.monitor());
-  if (crew.team != nullptr && crew.team->rank() != 0) return moved.outside;
+                               const std::string& sol_path, const std::string& out_path, const Executor& executor) {
+  TransferredField moved = transfer_field(from, session.mesh(), values, fields.components(), executor, &session.monitor());
+  if (executor.team != nullptr && executor.team->rank() != 0) return moved.outside;
   Solution result{
       .dimension = fields.dimension, .tensor = false, .values = std::move(moved.values), .fields = fields.fields};
   write_solution(in_dimension(result, session.model().plane ? 2 : 3, sol_path), out_path);
@@ -342,18 +341,18 @@ std::shared_ptr<BackgroundField> background_of_fields_here(Session& session, con
 std::shared_ptr<BackgroundField> background_of_fields(Session& session, const std::string& mesh_path,
                                                       const std::string& sol_path) {
   std::shared_ptr<BackgroundField> background;
-  session.together([&](const Crew&) { background = background_of_fields_here(session, mesh_path, sol_path); });
+  session.together([&](const Executor&) { background = background_of_fields_here(session, mesh_path, sol_path); });
   return background;
 }
 
 std::int64_t transfer_files(Session& session, const std::string& mesh_path, const std::string& sol_path,
                             const std::string& out_path) {
   std::int64_t outside = 0;
-  session.together([&](const Crew& crew) {
+  session.together([&](const Executor& executor) {
     const FlatMesh mesh = read_carrier(mesh_path);
     const Solution fields = read_fields(sol_path, mesh, mesh_path);
     outside = write_transferred(session, surface_of(mesh, session.model()),
-                                with_nodes_on_edges(mesh, fields.values, fields.components()), fields, sol_path, out_path, crew);
+                                with_nodes_on_edges(mesh, fields.values, fields.components()), fields, sol_path, out_path, executor);
   });
   return outside;
 }
@@ -401,7 +400,7 @@ VertexPrescriptions wanted_by(Session& session, const Start& start) {
 
 namespace {
 
-void adapt_by_files(Session& session, const Crew& crew, Monitor& monitor) {
+void adapt_by_files(Session& session, const Executor& executor, Monitor& monitor) {
   Parameters& parameters = session.parameters();
   const Start start = start_of(session);
   const std::string out_path = parameters.text("adapt_out");
@@ -422,7 +421,7 @@ void adapt_by_files(Session& session, const Crew& crew, Monitor& monitor) {
   }
   if (out_path.empty()) return;
   if (const std::int64_t outside =
-          write_transferred(session, start.from, start.values, start.fields, start.sol_path, out_path, crew);
+          write_transferred(session, start.from, start.values, start.fields, start.sol_path, out_path, executor);
       outside > 0)
     monitor.message(Level::warning, std::to_string(outside) + " vertices lie outside of the mesh of the field " +
                                         "and have the nearest value");
@@ -431,7 +430,7 @@ void adapt_by_files(Session& session, const Crew& crew, Monitor& monitor) {
 }  // namespace
 
 void adapt_by_files(Session& session, Monitor& monitor) {
-  session.together([&](const Crew& crew) { adapt_by_files(session, crew, monitor); });
+  session.together([&](const Executor& executor) { adapt_by_files(session, executor, monitor); });
 }
 
 }  // namespace carreau

@@ -30,7 +30,7 @@ MeshEvaluation measure_triangles(const Meshed& meshed, const CompositeOptions& o
                                  Cad& cad, Monitor& monitor) {
   MeshEvaluation delivered = evaluate_discrete(*meshed.triangles, cad, options, result, monitor);
   if (meshed.bounds_to_input)
-    bound_input_distances(meshed.triangles->discrete(), result.mesh, options.threads, monitor, delivered);
+    bound_input_distances(meshed.triangles->discrete(), result.mesh, options.executor.threads, monitor, delivered);
   return delivered;
 }
 

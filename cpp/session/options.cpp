@@ -104,7 +104,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.certified = static_cast<Certified>(parameters.integer("certify"));
   options.sharp_angle = parameters.real("sharp_angle");
   options.max_triangles = parameters.integer("max_triangles");
-  options.threads = threads_of(parameters);
+  options.executor.threads = threads_of(parameters);
   return options;
 }
 

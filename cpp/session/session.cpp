@@ -165,13 +165,13 @@ const QualitySummary& Session::quality() const {
   return *s.quality;
 }
 
-void Session::together(const std::function<void(const Crew&)>& body) const {
+void Session::together(const std::function<void(const Executor&)>& body) const {
   State& s = *state_;
-  const Crew crew{s.team.get(), threads_of(s.parameters)};
-  if (crew.team == nullptr || s.is_together) return body(crew);
+  const Executor executor{s.team.get(), threads_of(s.parameters)};
+  if (executor.team == nullptr || s.is_together) return body(executor);
   s.is_together = true;
   try {
-    crew.team->run([&] { body(crew); });
+    executor.team->run([&] { body(executor); });
   } catch (...) {
     s.is_together = false;
     throw;
@@ -180,13 +180,13 @@ void Session::together(const std::function<void(const Crew&)>& body) const {
 }
 
 void Session::make_mesh(double from, double to) {
-  together([&](const Crew&) { make_mesh_alone(from, to, nullptr); });
+  together([&](const Executor&) { make_mesh_alone(from, to, nullptr); });
 }
 
 PartMesh Session::make_part() {
   if (!state_->team) throw InvalidArgument("meshes in parts require a team of processes: the session has no team");
   PartMesh part;
-  together([&](const Crew&) { make_mesh_alone(0, 1, &part); });
+  together([&](const Executor&) { make_mesh_alone(0, 1, &part); });
   return part;
 }
 
@@ -246,7 +246,7 @@ PreparedModel Session::prepare(Model& known, Cad& whole_cad) {
   for (const std::string& remark : remarks) s.monitor.message(Level::warning, remark);
   CompositeOptions options = composite_options(s.parameters, supports.diag);
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, known.plane, s.background);
-  options.team = s.team.get();
+  options.executor.team = s.team.get();
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
@@ -363,7 +363,7 @@ void Session::make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, 
   CompositeOptions options = composite_options(s.parameters, surface.discrete().mesh().diagonal());
   options.measure_bounds = s.parameters.integer("measure_bounds") > 0;
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, model.plane, s.background);
-  options.team = s.team.get();
+  options.executor.team = s.team.get();
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   CompositeResult result = mesh_discrete(model, surface, cad, options, making);
@@ -384,7 +384,7 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
   const bool measured = s.parameters.integer("measure") != 0;
   report_flat_triangles(result.mesh, s.monitor);
   if (s.team) require_same_mesh(*s.team, result.mesh);
-  options.team = nullptr;  // the mesh outlives it
+  options.executor.team = nullptr;  // the mesh outlives it
   std::vector<Interface> interfaces = list_interfaces(model, topology, result.gaps, s.glued);
   for (const PrescriptionSource* source : options.size.sources)
     for (const std::string& remark : source->remarks()) s.monitor.message(Level::warning, remark);

@@ -31,7 +31,7 @@
 #include "size/attractors.h"
 #include "size/background.h"
 #include "support/monitor.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 #include "support/ranks/team.h"
 #include "surface/layers/layer_curves.h"
 #include "surface/layers/layer_figures.h"
@@ -88,9 +88,9 @@ class Session {
   /// equal geometries, models and parameters, and call make_mesh() together; an exception in one process is thrown in
   /// all. Visible differences of curves or of the mesh are errors.
   void set_team(std::shared_ptr<TeamLink> link);
-  /// Calls body(crew), which may make meshes, in all processes of the team together: an exception in one of them reaches
+  /// Calls body(executor), which may make meshes, in all processes of the team together: an exception in one of them reaches
   /// all. Without a team in this one alone.
-  void together(const std::function<void(const Crew&)>& body) const;
+  void together(const std::function<void(const Executor&)>& body) const;
   void clear_model() noexcept;  ///< the mesh made of it stays
   [[nodiscard]] const Model& model() const noexcept;
 

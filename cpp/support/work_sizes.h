@@ -16,6 +16,9 @@ inline constexpr std::size_t triangles = 1 << 14;
 inline constexpr std::size_t prefetched = 12;
 /// One place of so many is evaluated by each process, so that different hosts are found: 1.6 % more calls.
 inline constexpr std::size_t places_of_one_compared = 64;
+/// Places. Below, each process evaluates all places: to wait for the others twice takes longer than a thousand answers that take half a
+/// microsecond each.
+inline constexpr std::size_t fewest_shared_places = 1024;
 
 /// Rows of a piece when processes share `n` rows: few enough that each of 64 takers has some, and enough that handing them out costs
 /// nothing and hosts get batches.

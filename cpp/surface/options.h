@@ -6,10 +6,9 @@
 
 #include "mesh/cells.h"
 #include "size/size_rules.h"
+#include "support/ranks/executor.h"
 
 namespace carreau {
-
-class Team;
 
 /// The treatment of faces whose two long sides are nearer to each other than a share of the prescribed size.
 enum class NarrowFaces : int {
@@ -67,18 +66,16 @@ struct CompositeOptions {
   bool independent = false;
   double sharp_angle = 1;
   std::int64_t max_triangles = 0;  ///< 0: by memory
-  /// Number of threads, including the caller's. The mesh does not depend on it. A host that is not re-entrant is called
-  /// from the caller's thread only.
-  int threads = 1;
-  /// Processes that make the mesh together; null: only this process. The mesh does not depend on it.
-  Team* team = nullptr;
+  /// Threads, including the caller's, and processes. The mesh does not depend on them. A host that is not re-entrant is called from the
+  /// caller's thread only.
+  Executor executor = {};
   /// Patches stay with the process that has meshed them: no process has the whole mesh (pipeline/parts), unless a step needs it.
   bool parts = false;
 };
 
 /// Returns whether several threads may call the host: it allows that, and sources of prescriptions are absent.
 inline bool asks_from_threads(const CompositeOptions& options, const Cad& cad) noexcept {
-  return options.threads > 1 && cad.reentrant() && options.size.sources.empty();
+  return options.executor.threads > 1 && cad.reentrant() && options.size.sources.empty();
 }
 
 /// Throws LimitError for a mesh beyond CompositeOptions::max_triangles.

@@ -9,6 +9,7 @@
 #include "gradation/graded_field.h"
 #include "mesh/plane_mesh.h"
 #include "size/size_rules.h"
+#include "support/ranks/executor.h"
 #include "surface/domain/domain_builder.h"
 
 namespace carreau {
@@ -57,8 +58,8 @@ struct PatchInput {
   double slope = 0;
   /// Largest relative error of lengths in the control space.
   double tolerance = ControlSpaceOptions{}.tolerance;
-  int threads = 1;       ///< at work on this patch; nothing depends on it
-  int host_threads = 1;  ///< the threads among them that may call the host
+  Executor executor = {};  ///< at work on this patch
+  int host_threads = 1;    ///< the threads of this process that may call the host
 };
 
 /// The boundary of a domain.

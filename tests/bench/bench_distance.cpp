@@ -10,7 +10,7 @@
 
 #include "geometry/discrete/sharp_lines.h"
 #include "io/mesh_files.h"
-#include "mesh/surface_distance.h"
+#include "mesh/distance/surface_distance.h"
 #include "mesh/triangle_search.h"
 
 using namespace carreau;

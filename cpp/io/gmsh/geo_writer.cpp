@@ -5,7 +5,7 @@
 #include <set>
 
 #include "io/mesh_writers.h"
-#include "mesh/regions/regions.h"
+#include "mesh/regions.h"
 #include "support/error.h"
 
 namespace carreau {

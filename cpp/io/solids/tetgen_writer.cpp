@@ -5,7 +5,7 @@
 
 #include "io/mesh_writers.h"
 #include "io/solids/corner_numbers.h"
-#include "mesh/regions/regions.h"
+#include "mesh/regions.h"
 #include "support/format.h"
 
 namespace carreau {

@@ -10,7 +10,7 @@
 
 #include "mesh/crossings/intersections.h"
 #include "support/monitor.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -26,7 +26,7 @@ struct SearchedMesh {
 /// compared again.
 Intersections find_intersections_again(const SearchedMesh& before, std::span<const Vec3> vertices,
                                        std::span<const std::array<std::int32_t, 3>> triangles, std::size_t limit,
-                                       const Crew& crew, Monitor& monitor);
+                                       const Executor& executor, Monitor& monitor);
 
 /// For each triangle: 1 if `before` has no identical triangle, corners compared to the last bit, or if that one crosses another. Each
 /// triangle of `before` matches at most one triangle.

@@ -291,11 +291,11 @@ std::vector<std::int32_t> doubtful_order(std::span<const Vec3> vertices, std::sp
 
 /// Finds crossings between sound triangles, at least one of each pair in `asked`; empty: all.
 Intersections find_among(std::span<const Vec3> vertices, std::span<const Indices> triangles, SoundTriangles sound,
-                         const std::vector<char>& asked, std::size_t limit, const Crew& crew, Monitor& monitor,
+                         const std::vector<char>& asked, std::size_t limit, const Executor& executor, Monitor& monitor,
                          const FacesOfTriangles& faces = {}) {
-  const std::vector<std::int32_t> graph = all_graphs(vertices, triangles, sound, faces, crew.threads, monitor);
-  std::vector<std::int32_t> order = doubtful_order(vertices, triangles, std::move(sound.numbers), graph, crew.threads, monitor);
-  const BoxPairs near(vertices, triangles, std::move(order), graph, monitor, crew.threads);
+  const std::vector<std::int32_t> graph = all_graphs(vertices, triangles, sound, faces, executor.threads, monitor);
+  std::vector<std::int32_t> order = doubtful_order(vertices, triangles, std::move(sound.numbers), graph, executor.threads, monitor);
+  const BoxPairs near(vertices, triangles, std::move(order), graph, monitor, executor.threads);
   const auto ask = [&](std::size_t part, Monitor&) {
     Intersections here;
     FirstPairs first(limit, here);
@@ -311,7 +311,7 @@ Intersections find_among(std::span<const Vec3> vertices, std::span<const Indices
     return here;
   };
   const std::vector<Intersections> of_part =
-      shared_work<Intersections>(crew, "triangles that cross", near.parts(), false, ask, put, get, monitor);
+      shared_work<Intersections>(executor, "triangles that cross", near.parts(), false, ask, put, get, monitor);
   Intersections all;
   for (const Intersections& some : of_part) {
     all.count += some.count;
@@ -335,28 +335,28 @@ bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexce
 
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const IntersectionOptions& options, Monitor& monitor) {
-  return find_intersections(vertices, triangles, options.limit, Crew{nullptr, options.threads}, monitor);
+  return find_intersections(vertices, triangles, options.limit, Executor{nullptr, options.threads}, monitor);
 }
 
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                                 std::size_t limit, const Crew& crew, Monitor& monitor, const FacesOfTriangles& faces) {
-  return find_among(vertices, triangles, sound_triangles(vertices, triangles, {}, crew.threads, monitor), {}, limit, crew,
+                                 std::size_t limit, const Executor& executor, Monitor& monitor, const FacesOfTriangles& faces) {
+  return find_among(vertices, triangles, sound_triangles(vertices, triangles, {}, executor.threads, monitor), {}, limit, executor,
                     monitor, faces);
 }
 
 Intersections find_intersections_of(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                     const std::vector<char>& asked, std::size_t limit, int threads, Monitor& monitor) {
   return find_among(vertices, triangles, sound_triangles(vertices, triangles, {}, threads, monitor), asked, limit,
-                    Crew{nullptr, threads}, monitor);
+                    Executor{nullptr, threads}, monitor);
 }
 
 Intersections find_intersections_again(const SearchedMesh& before, std::span<const Vec3> vertices,
                                        std::span<const std::array<std::int32_t, 3>> triangles, std::size_t limit,
-                                       const Crew& crew, Monitor& monitor) {
+                                       const Executor& executor, Monitor& monitor) {
   const std::vector<char> changed = changed_triangles(before, vertices, triangles, monitor);
-  const std::vector<char> near = near_triangles(vertices, triangles, changed, crew.threads, monitor);
-  return find_among(vertices, triangles, sound_triangles(vertices, triangles, near, crew.threads, monitor), changed, limit,
-                    crew, monitor);
+  const std::vector<char> near = near_triangles(vertices, triangles, changed, executor.threads, monitor);
+  return find_among(vertices, triangles, sound_triangles(vertices, triangles, near, executor.threads, monitor), changed, limit,
+                    executor, monitor);
 }
 
 }  // namespace carreau

@@ -7,8 +7,8 @@
 #include <cstddef>
 
 #include "support/box_tree.h"
+#include "support/memory/unfilled.h"
 #include "support/stepped_tasks.h"
-#include "support/unfilled.h"
 
 namespace carreau {
 

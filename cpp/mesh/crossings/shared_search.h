@@ -3,7 +3,7 @@
 #pragma once
 
 #include "mesh/crossings/intersections.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 
 namespace carreau {
 
@@ -14,10 +14,10 @@ struct FacesOfTriangles {
   std::int32_t on_curves = 0;
 };
 
-/// find_intersections() by all processes of a team together: each process receives the whole result. `limit`: of
+/// find_intersections() by the threads and processes of an executor together: each process receives the whole result. `limit`: of
 /// Intersections::pairs. `faces`: only the time depends on them.
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                                 std::size_t limit, const Crew& crew, Monitor& monitor, const FacesOfTriangles& faces = {});
+                                 std::size_t limit, const Executor& executor, Monitor& monitor, const FacesOfTriangles& faces = {});
 
 /// Finds the pairs with at least one triangle in `asked` (by triangle, 1 or 0).
 Intersections find_intersections_of(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "support/box_tree.h"
+#include "support/memory/unfilled.h"
 #include "support/stepped_tasks.h"
-#include "support/unfilled.h"
 
 namespace carreau {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "support/unfilled.h"
+#include "support/memory/unfilled.h"
 
 namespace carreau {
 

@@ -56,7 +56,7 @@ CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topol
       periodic(std::move(given_periodic)) {
   options.size = enlarged(options.size, enlargement_for(options.element));
   options.parts = options.parts && work_on_parts(options, rules) && periodic.empty();
-  if (options.max_triangles <= 0) options.max_triangles = limit_by_memory() * (options.parts ? options.team->size() : 1);
+  if (options.max_triangles <= 0) options.max_triangles = limit_by_memory() * (options.parts ? options.executor.team->size() : 1);
   result.report.diag = supports.diag;
   for (const std::string& remark : periodic.remarks) report(Level::warning, remark);
   if (periodic.empty()) return;

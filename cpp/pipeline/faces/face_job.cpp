@@ -90,7 +90,7 @@ void FaceJob::step(Monitor& monitor) {
 std::unique_ptr<FaceJob> FaceJob::shared() const {
   auto job = std::make_unique<FaceJob>(given_, even_ ? *even_->host_cad : *cad_, even_ ? *even_->host_rules : *rules_, layers_, options_,
                                        reentrant_);
-  job->team_ = options_.team;
+  job->given_.executor = job->input_.executor = options_.executor;
   return job;
 }
 
@@ -183,12 +183,11 @@ void FaceJob::sample(Monitor& monitor) {
 
 // A plane domain costs no more to evaluate than to receive from another process.
 ControlSpace FaceJob::sampled(Monitor& monitor, SampledFacts* facts) const {
-  return sample_face(input_, *cad_, *rules_, probe_points_, monitor, facts, asking_samples());
+  return sample_face(input_, *cad_, *rules_, probe_points_, monitor, facts);
 }
 
 void FaceJob::bound_growth_from_edges(Monitor& monitor) {
-  std::optional<EdgeSizes> bounded = bound_growth(input_, *cad_, *rules_, probe_points_, monitor, *space_,
-                                                   asking_samples());
+  std::optional<EdgeSizes> bounded = bound_growth(input_, *cad_, *rules_, probe_points_, monitor, *space_);
   if (!bounded) return;
   const double asked = input_.limits.edges->smallest();
   bounded_edges_ = std::move(*bounded);
@@ -199,7 +198,7 @@ void FaceJob::bound_growth_from_edges(Monitor& monitor) {
 
 void FaceJob::mesh(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_plane);
-  if (team_ != nullptr) require_same_samples(*team_, input_.ref, *space_);
+  if (!input_.executor.is_alone()) require_same_samples(*input_.executor.team, input_.ref, *space_);
   mesh_.emplace();
   mesh_->plane = mesh_plane(input_.domain->plane, *space_,
                             {.frontal = options_.frontal,
@@ -208,8 +207,7 @@ void FaceJob::mesh(Monitor& monitor) {
                              .normals = normals_.differ() ? &normals_ : nullptr,
                              .max_triangles = options_.max_triangles,
                              .undersampled = undersampled_,
-                             .threads = options_.threads,
-                             .team = team_},
+                             .executor = input_.executor},
                             monitor);
   next_ = Step::lift;
 }
@@ -219,9 +217,9 @@ void FaceJob::lift(Monitor& monitor) {
   std::optional<std::vector<std::int32_t>> bad;  // triangles, if known
   {
     const Stopwatch watch(report_.seconds_lift);
-    lift_patch(input_, *cad_, *mesh_, monitor, asking_positions());
-    bad = swap_poor_edges(input_, *mesh_, monitor, team_);
-    places = verify_lift(input_, *space_, *cad_, *rules_, *mesh_, monitor, team_);
+    lift_patch(input_, *cad_, *mesh_, monitor);
+    bad = swap_poor_edges(input_, *mesh_, monitor);
+    places = verify_lift(input_, *space_, *cad_, *rules_, *mesh_, monitor);
     if (corrections_ < max_corrections) {
       const std::vector<Vec2> steep = missed_steep_places(input_, *space_, *cad_, *rules_, *mesh_, monitor);
       places.insert(places.end(), steep.begin(), steep.end());
@@ -236,10 +234,10 @@ void FaceJob::lift(Monitor& monitor) {
   }
   refuse_unsound(monitor);
   const Stopwatch watch(report_.seconds_lift);
-  if (!squares_) shape_in_space(input_, *cad_, *rules_, *mesh_, std::move(bad), monitor, team_);
+  if (!squares_) shape_in_space(input_, *cad_, *rules_, *mesh_, std::move(bad), monitor);
   const bool kept = options_.size.geo_guarantee && (!input_.isotropic || options_.size.guarantee_triangles);
   const std::vector<int> doubtful = refine_in_space(
-      input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor, team_);
+      input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
   check_agreement(doubtful, monitor);
 }
 

@@ -72,8 +72,6 @@ class FaceJob final : public SteppedTask {
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
   void refuse_beyond_limit(double expected) const;
   [[nodiscard]] ControlSpace sampled(Monitor& monitor, SampledFacts* facts) const;
-  [[nodiscard]] Team* asking_samples() const noexcept { return input_.is_plane && rules_->constant() ? nullptr : team_; }
-  [[nodiscard]] Team* asking_positions() const noexcept { return input_.is_plane ? nullptr : team_; }
   void even_out(const UnevenSpeed& speed, Monitor& monitor);
   [[nodiscard]] double max_uneven() const noexcept;
   void return_to_host(Monitor& monitor);
@@ -122,7 +120,6 @@ class FaceJob final : public SteppedTask {
   std::optional<Attempt> best_;
   SurfaceAgreement prescribed_;  // of the mesh of the sizes prescribed
   int bounded_rounds_ = 0;       // that had them bounded
-  Team* team_ = nullptr;         // null: this process alone makes the face
   bool squares_ = false;         // points are placed for quadrilaterals
   std::optional<PatchMesh> mesh_;
   std::string failure_, remark_;

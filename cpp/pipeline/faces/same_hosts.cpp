@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "support/ranks/packet.h"
-#include "surface/sample/shared_answers.h"
+#include "support/ranks/shared_answers.h"
 
 namespace carreau {
 

@@ -179,7 +179,7 @@ Crossings::Crossings(const CompositeRun& run) : mesh_(&run.result.mesh) {
     first_.push_back(static_cast<std::int32_t>(triangles_.size()));
   }
   if (!run.result.shares)
-    found = find_intersections(mesh().vertices, triangles_, max_pairs, {run.options.team, run.options.threads},
+    found = find_intersections(mesh().vertices, triangles_, max_pairs, run.options.executor,
                                run.monitor, {first_, vertices_on_curves(mesh())});
 }
 

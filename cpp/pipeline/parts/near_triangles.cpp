@@ -38,7 +38,7 @@ BoxTree tree_of(const std::vector<Box>& boxes, const CompositeRun& run) {
   std::vector<Vec3> centres;
   centres.reserve(boxes.size());
   for (const Box& box : boxes) centres.push_back(0.5 * (box.low + box.high));
-  return {boxes, centres, &run.monitor, run.options.threads};
+  return {boxes, centres, &run.monitor, run.options.executor.threads};
 }
 
 /// Boxes that meet one.
@@ -75,7 +75,7 @@ struct OwnTriangles {
       }
     std::vector<std::int32_t> numbers(corners.size());
     std::iota(numbers.begin(), numbers.end(), 0);
-    order = spatial_order(mesh.vertices, corners, std::move(numbers), run.monitor, run.options.threads);
+    order = spatial_order(mesh.vertices, corners, std::move(numbers), run.monitor, run.options.executor.threads);
   }
   /// Box of the k-th triangle in the order.
   [[nodiscard]] Box box(std::size_t k) const { return box_of(vertices_, corners[static_cast<std::size_t>(order[k])]); }
@@ -217,7 +217,7 @@ TriangleOfFace NearTriangles::origin(std::int32_t triangle) const {
 }
 
 NearTriangles near_triangles(const CompositeRun& run) {
-  Team& team = *run.options.team;
+  Team& team = *run.options.executor.team;
   const SurfaceMesh& mesh = run.result.mesh;
   NearTriangles near;
   near.vertices = mesh.vertices;

@@ -40,7 +40,7 @@ Vec3 point_of(PacketReader& packet) {
 std::string found_here(const CompositeRun& run, std::size_t limit) {
   const NearTriangles near = near_triangles(run);
   const Intersections found =
-      find_intersections_of(near.vertices, near.triangles, near.own, limit, run.options.threads, run.monitor);
+      find_intersections_of(near.vertices, near.triangles, near.own, limit, run.options.executor.threads, run.monitor);
   PacketWriter packet;
   packet.put(found.count);
   packet.put(static_cast<std::int64_t>(found.pairs.size()));
@@ -104,7 +104,7 @@ using TriangleCorners = std::array<Corner, 3>;
 /// Corners of the triangles of the list, from all processes.
 std::vector<TriangleCorners> corners_of_all(const CompositeRun& run, const std::vector<TriangleOfFace>& triangles) {
   std::vector<TriangleCorners> all(triangles.size());
-  for (const std::string& of_rank : run.options.team->exchange("corners of triangles that cross", corners_here(run, triangles)))
+  for (const std::string& of_rank : run.options.executor.team->exchange("corners of triangles that cross", corners_here(run, triangles)))
     for (PacketReader packet(of_rank); !packet.at_end();) {
       const auto found = std::lower_bound(triangles.begin(), triangles.end(), get(packet));
       for (Corner& corner : all.at(static_cast<std::size_t>(found - triangles.begin()))) {
@@ -145,7 +145,7 @@ void add_triangle(const TriangleCorners& corners, FaceMesh& face, SurfaceMesh& m
 
 PartCrossings find_part_crossings(const CompositeRun& run, std::size_t limit) {
   PartCrossings crossings;
-  const std::vector<Pair> pairs = pairs_of_all(*run.options.team, found_here(run, limit), limit, crossings.found.count);
+  const std::vector<Pair> pairs = pairs_of_all(*run.options.executor.team, found_here(run, limit), limit, crossings.found.count);
   const std::vector<TriangleOfFace> triangles = triangles_of(pairs);
   const std::vector<TriangleCorners> corners = corners_of_all(run, triangles);
   crossings.mesh = empty_faces(run);

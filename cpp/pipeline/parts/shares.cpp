@@ -44,7 +44,7 @@ void share_sentences(Team& team, std::vector<std::string>& of_face) {
 }
 
 MeshShares share_out(const CompositeRun& run) {
-  Team& team = *run.options.team;
+  Team& team = *run.options.executor.team;
   MeshShares shares{.rank = team.rank(), .processes = team.size(), .of_face = std::vector<FaceShare>(run.keeper.size())};
   shares.on_curves = static_cast<std::int64_t>(run.result.mesh.vertices.size());
   const std::vector<std::string> all = team.exchange("shares", own_counts(run, team.rank()));

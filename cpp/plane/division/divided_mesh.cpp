@@ -10,7 +10,6 @@
 #include "plane/division/coarse_domain.h"
 #include "plane/division/partition.h"
 #include "plane/division/pieces.h"
-#include "plane/division/shared_tasks.h"
 #include "plane/division/undivided.h"
 #include "plane/division/zone.h"
 #include "plane/kernel/boundary.h"
@@ -84,7 +83,7 @@ std::vector<MeshedPiece> mesh_pieces(const Pieces& pieces, const ZoneContext& co
   const auto mesh_piece = [&](std::size_t p, Monitor& monitor) -> MeshedPiece {
     const Piece& piece = pieces.pieces[p];
     PlaneMesherOptions options = context.options;
-    options.threads = 1;
+    options.executor = {};
     if (layers_can_start(piece)) options.resting = piece.on_separator;
     const UndividedWork work =
         work_undivided(piece.domain, context.metric, {.bends = context.known.bends, .triangles = piece.triangles},
@@ -93,8 +92,8 @@ std::vector<MeshedPiece> mesh_pieces(const Pieces& pieces, const ZoneContext& co
     NearSeparators near = near_separators(piece, pieces.separator, work.framed.mesh, mesh, monitor);
     return {{std::move(mesh), work.fixed}, std::move(near)};
   };
-  return results_of<MeshedPiece>("pieces", pieces.pieces.size(), context.options, context.monitor,
-                                 {put_piece, get_piece}, mesh_piece);
+  return shared_work<MeshedPiece>(context.options.executor, "pieces", pieces.pieces.size(), false, mesh_piece, put_piece, get_piece,
+                                  context.monitor);
 }
 
 // The system provides memory page by page, which takes longer than the writing: checks for a stop on the way.
@@ -120,7 +119,7 @@ class Assembly {
     number_vertices();
     count_triangles();
     run_each(
-        count_, false, context_.options.threads, [&](std::size_t p, Monitor&) { put_piece(p); }, context_.monitor);
+        count_, false, context_.options.executor.threads, [&](std::size_t p, Monitor&) { put_piece(p); }, context_.monitor);
     context_.monitor.checkpoint();
     put_zone();
     context_.monitor.checkpoint();

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "control_space/sampled_normals.h"
+#include "support/ranks/executor.h"
 #include "support/vec.h"
 
 namespace carreau {
-
-class Team;
 
 struct PlaneMesherOptions {
   bool frontal = true;        ///< false: algebraic placement, points on edges longer than unity (RT-0232 `frontal`)
@@ -26,9 +25,7 @@ struct PlaneMesherOptions {
   std::span<const std::vector<Vec2>> undersampled = {};
   /// For each vertex of the domain, or empty: layers do not start from an edge with a nonzero end.
   std::span<const std::uint8_t> resting = {};
-  int threads = 1;  ///< at work on a large domain; the mesh does not depend on it
-  /// Processes that mesh this domain together, each with this call, null: this one alone. The mesh does not depend on it.
-  Team* team = nullptr;
+  Executor executor = {};  ///< at work on a large domain: all processes call the mesher. The mesh does not depend on it
 };
 
 }  // namespace carreau

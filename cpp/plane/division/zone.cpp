@@ -3,11 +3,10 @@
 
 #include <algorithm>
 
-#include "plane/division/shared_tasks.h"
 #include "plane/division/zone_part.h"
 #include "plane/kernel/thresholds.h"
+#include "support/memory/unfilled.h"
 #include "support/ranks/triangle_packet.h"
-#include "support/unfilled.h"
 
 namespace carreau::plane {
 
@@ -195,7 +194,7 @@ std::vector<std::uint8_t> improve_bands(Zone& zone, const ZoneContext& context) 
     return optimise_part(zone, bands.triangles(b), free, context, monitor);
   };
   const std::vector<ZonePart> parts =
-      results_of<ZonePart>("bands", bands.count(), context.options, context.monitor, {put_part, get_part}, improve);
+      shared_work<ZonePart>(context.options.executor, "bands", bands.count(), false, improve, put_part, get_part, context.monitor);
   apply(zone, parts, replaced, context.monitor);
   waiting.resize(zone.vertices.size(), 0);
   return waiting;

@@ -9,7 +9,7 @@
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/local_search.h"
 #include "plane/optimise/optimise.h"
-#include "support/unfilled.h"
+#include "support/memory/unfilled.h"
 
 namespace carreau::plane {
 

@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "support/monitor.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 
 namespace carreau {
 
-/// The i below n for which holds(i), ascending. All processes of a crew, which must hold equal values, search long
-/// lists together. The result does not depend on the crew. `step`: of Team::exchange.
+/// The i below n for which holds(i), ascending. All processes of a executor, which must hold equal values, search long
+/// lists together. The result does not depend on the executor. `step`: of Team::exchange.
 template <typename Holds>
-std::vector<std::int32_t> all_that_hold(std::size_t n, const Crew& crew, std::string_view step, Monitor& monitor,
+std::vector<std::int32_t> all_that_hold(std::size_t n, const Executor& executor, std::string_view step, Monitor& monitor,
                                         const Holds& holds) {
   constexpr std::size_t at_once = 1 << 15;           // [time only]
   constexpr std::size_t least_shared = 4 * at_once;  // [time only] below some ms of work processes wait longer for each other
@@ -30,7 +30,7 @@ std::vector<std::int32_t> all_that_hold(std::size_t n, const Crew& crew, std::st
   };
   const auto put = [](PacketWriter& packet, const std::vector<std::int32_t>& found) { packet.put(found); };
   const auto get = [](PacketReader& packet) { return packet.integers(); };
-  const Crew searching{n >= least_shared ? crew.team : nullptr, parts > 1 ? crew.threads : 1};
+  const Executor searching{n >= least_shared ? executor.team : nullptr, parts > 1 ? executor.threads : 1};
   std::vector<std::vector<std::int32_t>> found =
       shared_work<std::vector<std::int32_t>>(searching, step, parts, false, look, put, get, monitor);
   if (found.size() == 1) return std::move(found.front());

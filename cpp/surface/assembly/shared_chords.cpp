@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "mesh/editable_mesh.h"
-#include "support/ranks/packet.h"
-#include "support/ranks/team.h"
+#include "support/ranks/exchanges.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau {
@@ -66,35 +65,18 @@ void get(PacketReader& packet, Corners& corners) {
   corners.triangle = static_cast<std::size_t>(packet.integer());
 }
 
-/// Appends the items of other processes to the local items. `shown` selects the items that other processes may have,
-/// too.
-template <typename Item, typename Shown>
-void add_of_others(Team& team, std::string_view step, const Shown& shown, std::vector<Item>& items) {
-  PacketWriter packet;
-  packet.put(static_cast<std::int64_t>(std::count_if(items.begin(), items.end(), shown)));
-  for (const Item& item : items)
-    if (shown(item)) put(packet, item);
-  const std::vector<std::string> all = team.exchange(step, packet.bytes());
-  for (std::size_t rank = 0; rank < all.size(); ++rank) {
-    if (static_cast<int>(rank) == team.rank()) continue;
-    PacketReader reader(all[rank]);
-    for (std::size_t n = reader.count(sizeof(std::int64_t)); n > 0; --n) get(reader, items.emplace_back());
-  }
-}
-
 class Separator {
  public:
   Separator(const Model& model, const Topology& topology, const RefinedDomains& domains,
             const std::vector<DiscreteCurve>& curves, Cad& cad, std::vector<std::optional<PatchMesh>>& patches,
-            int threads, Team* team, Monitor& monitor)
+            const Executor& executor, Monitor& monitor)
       : model_(model),
         topology_(topology),
         domains_(domains),
         curves_(curves),
         cad_(cad),
         patches_(patches),
-        threads_(threads),
-        team_(team),
+        executor_(executor),
         monitor_(monitor) {
     auto next = static_cast<std::int64_t>(topology.points.size());
     for (const DiscreteCurve& curve : curves) {
@@ -116,7 +98,7 @@ class Separator {
       for (const std::vector<Chord>& some : of_face) chords_.insert(chords_.end(), some.begin(), some.end());
       // A chord with an end inside a face has no other face.
       const auto on_curves = [this](const Chord& chord) { return chord.local[1] < on_curves_[chord.face]; };
-      if (team_ != nullptr) add_of_others(*team_, "chords", on_curves, chords_);
+      add_of_others(executor_, "chords", on_curves, chords_);
       std::sort(chords_.begin(), chords_.end());
       changed_.assign(patches_.size(), false);
       if (count_added([this] { split_chords(); }) == 0) break;
@@ -124,7 +106,7 @@ class Separator {
     editable_.clear();
     std::vector<Corners> triangles = triangles_on_curves();
     const auto all_on_curves = [](const Corners& corners) { return corners.key[2] < first_inside; };
-    if (team_ != nullptr) add_of_others(*team_, "triangles on curves", all_on_curves, triangles);
+    add_of_others(executor_, "triangles on curves", all_on_curves, triangles);
     count_added([&] { split_equal_triangles(triangles); });
     return added_everywhere_;
   }
@@ -133,20 +115,11 @@ class Separator {
   /// New vertices of all processes in a step that adds some.
   template <typename Step>
   std::int64_t count_added(const Step& step) {
-    const std::int64_t before = added_;
-    std::int64_t new_ones = 0;
-    if (team_ == nullptr) {
+    const std::int64_t new_ones = sum_of_all(executor_, "divided chords", [&] {
+      const std::int64_t before = added_;
       step();
-      new_ones = added_ - before;
-    } else {
-      const std::vector<std::string> all = team_->exchange_results("divided chords", [&] {
-        step();
-        PacketWriter packet;
-        packet.put(added_ - before);
-        return packet.take();
-      });
-      for (const std::string& of_rank : all) new_ones += PacketReader(of_rank).integer();
-    }
+      return added_ - before;
+    });
     added_everywhere_ += new_ones;
     return new_ones;
   }
@@ -168,7 +141,7 @@ class Separator {
     const auto look = [&](std::size_t f, Monitor&) {
       if (patches_[f]) work(static_cast<int>(f));
     };
-    run_each(patches_.size(), false, threads_, look, monitor_);
+    run_each(patches_.size(), false, executor_.threads, look, monitor_);
   }
 
   // Vertices inside faces have numbers beyond all others.
@@ -352,8 +325,7 @@ class Separator {
   const std::vector<DiscreteCurve>& curves_;
   Cad& cad_;
   std::vector<std::optional<PatchMesh>>& patches_;
-  int threads_;
-  Team* team_;
+  Executor executor_;
   Monitor& monitor_;
   std::vector<std::int64_t> first_;                  // [curve]: number of its vertex 0
   std::vector<std::vector<std::int64_t>> identity_;  // [face][local vertex on a curve]
@@ -370,8 +342,8 @@ class Separator {
 
 std::int64_t separate_chords(const Model& model, const Topology& topology, const RefinedDomains& domains,
                              const std::vector<DiscreteCurve>& curves, Cad& cad,
-                             std::vector<std::optional<PatchMesh>>& patches, int threads, Team* team, Monitor& monitor) {
-  return Separator(model, topology, domains, curves, cad, patches, threads, team, monitor).run();
+                             std::vector<std::optional<PatchMesh>>& patches, const Executor& executor, Monitor& monitor) {
+  return Separator(model, topology, domains, curves, cad, patches, executor, monitor).run();
 }
 
 }  // namespace carreau

@@ -89,7 +89,7 @@ std::shared_ptr<const PartResults> mesh_beside(CompositeResult patches, const Mo
   both->patches = std::move(patches);
   both->triangle_options = std::move(options);
   both->triangles = mesh_discrete(triangles_of(model), triangles, cad, both->triangle_options, monitor);
-  both->triangle_options.team = nullptr;  // the mesh outlives it
+  both->triangle_options.executor = both->triangle_options.executor.alone();  // the mesh outlives it
   return both;
 }
 

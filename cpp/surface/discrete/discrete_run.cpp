@@ -103,7 +103,7 @@ bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions
   }
   frame.made = [&](std::span<const WorkedLine> worked, const SurfaceTolerances& tolerances) {
     return make_projected_mesh(frame, start.result.mesh, start.wanted.h, worked, tolerances,
-                               {.crew = {options.team, options.threads}, .max_triangles = options.max_triangles}, cad, monitor);
+                               {.executor = options.executor, .max_triangles = options.max_triangles}, cad, monitor);
   };
   if (options.element != Element::p1)
     frame.elements = [&](const SurfaceMesh& before, CrossPatchResult& made) { make_cross_patch_elements(before, frame, options, cad, made, monitor); };

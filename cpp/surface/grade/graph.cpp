@@ -4,7 +4,7 @@
 
 #include "periodic/shared_curves.h"
 #include "support/infinity.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 #include "support/shares.h"
 #include "surface/grade/graph_sizes.h"
 #include "surface/grade/thresholds.h"
@@ -219,7 +219,7 @@ std::vector<FaceInGraph> make_faces(const GradingWork& work, const std::vector<s
   const auto put = [](PacketWriter& packet, const FaceInGraph& face) { face.put(packet); };
   const auto get = [](PacketReader& packet) { return FaceInGraph::from(packet); };
   const bool bound = !asks_from_threads(work.options, work.model.cad);
-  return shared_work<FaceInGraph>({work.options.team, work.options.threads}, "faces of a graph", which.size(), bound, make, put, get,
+  return shared_work<FaceInGraph>(work.options.executor, "faces of a graph", which.size(), bound, make, put, get,
                                   work.monitor);
 }
 

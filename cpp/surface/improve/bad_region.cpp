@@ -21,9 +21,9 @@ bool is_below(double bound, const std::array<std::int32_t, 3>& t, const std::vec
   return !(12 * dot(n, n) > good * good * squares * squares) && quality_in_space(t, xyz) < bound;
 }
 
-std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound, const Crew& crew,
+std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound, const Executor& executor,
                                           Monitor& monitor) {
-  return all_that_hold(mesh.triangles.size(), crew, "bad triangles", monitor,
+  return all_that_hold(mesh.triangles.size(), executor, "bad triangles", monitor,
                        [&](std::size_t t) { return is_below(bound, mesh.triangles[t], xyz); });
 }
 

@@ -9,7 +9,7 @@
 #include "mesh/plane_mesh.h"
 #include "mesh/quality.h"
 #include "support/monitor.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 
 namespace carreau {
 
@@ -29,7 +29,7 @@ Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& triangle, const std
 bool is_below(double bound, const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz);
 /// Returns the triangles of a patch below the bound, increasing.
 std::vector<std::int32_t> triangles_below(const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound,
-                                          const Crew& crew, Monitor& monitor);
+                                          const Executor& executor, Monitor& monitor);
 
 /// The triangles of a patch near its bad triangles. Only these triangles may change when shapes improve.
 class BadRegion {

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "cad/fundamental_forms.h"
+#include "mesh/distance/triangle_distance.h"
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
 #include "mesh/quality.h"
-#include "mesh/triangle_distance.h"
 #include "support/angles.h"
 #include "support/ranks/all_that_hold.h"
 #include "surface/improve/corner_agreement.h"
@@ -28,8 +28,8 @@ using namespace thresholds::refinement;
 class Refinement {
  public:
   Refinement(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept, PatchMesh& mesh,
-             Monitor& monitor, Team* team)
-      : input_(input), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor), team_(team), kept_(kept), agreement_(kept) {}
+             Monitor& monitor)
+      : input_(input), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor), kept_(kept), agreement_(kept) {}
 
   std::vector<int> run() {
     std::vector<int> wrong = find_wrong();
@@ -102,7 +102,7 @@ class Refinement {
     }
     if (known_) ask_normals(input_.domain->plane.vertices.size());  // at imposed vertices
     const std::vector<Vec3>& normal = known_ ? mesh_.normal : around;
-    return all_that_hold(triangles.size(), {team_, input_.threads}, "doubtful triangles", monitor_, [&](std::size_t t) {
+    return all_that_hold(triangles.size(), input_.executor, "doubtful triangles", monitor_, [&](std::size_t t) {
       return is_doubtful(triangles[t], normal) && !collapsed(triangles[t]);
     });
   }
@@ -299,7 +299,6 @@ class Refinement {
   const SizeRules& rules_;
   PatchMesh& mesh_;
   Monitor& monitor_;
-  Team* team_;  // null: this process alone
   GeometricLimits kept_;
   KeptAgreement agreement_;
   bool with_normals_ = false;  // the mesh has them at all vertices
@@ -313,9 +312,9 @@ class Refinement {
 }  // namespace
 
 std::vector<int> refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
-                                 PatchMesh& mesh, Monitor& monitor, Team* team) {
+                                 PatchMesh& mesh, Monitor& monitor) {
   const bool had_normals = !mesh.normal.empty();
-  std::vector<int> wrong = Refinement(input, cad, rules, kept, mesh, monitor, team).run();
+  std::vector<int> wrong = Refinement(input, cad, rules, kept, mesh, monitor).run();
   if (!had_normals) mesh.normal.clear();
   return wrong;
 }

@@ -21,6 +21,6 @@ namespace carreau {
 /// vertex to the next, and a long edge leaves the surface between them. Returns the triangles that are still wrong,
 /// ascending.
 std::vector<int> refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
-                                 PatchMesh& mesh, Monitor& monitor, Team* team = nullptr);
+                                 PatchMesh& mesh, Monitor& monitor);
 
 }  // namespace carreau

@@ -12,25 +12,23 @@
 
 namespace carreau {
 
-std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor,
-                                                        Team* team) {
+std::optional<std::vector<std::int32_t>> swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor) {
   if (!input.isotropic) return {};
-  std::vector<std::int32_t> bad =
-      triangles_below(mesh.plane, mesh.xyz, shape_level::good, {team, input.threads}, monitor);
+  std::vector<std::int32_t> bad = triangles_below(mesh.plane, mesh.xyz, shape_level::good, input.executor, monitor);
   std::vector<std::int32_t> poor;
   for (const std::int32_t t : bad)
     if (is_below(shape_level::poor, mesh.plane.triangles[t], mesh.xyz)) poor.push_back(t);
   if (poor.empty()) return bad;
-  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, std::move(poor), input.threads, monitor);
+  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, std::move(poor), input.executor.threads, monitor);
   swap_in_space(region, input.domain->plane, mesh.plane, mesh.xyz, monitor);
   return {};
 }
 
 void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
-                    std::optional<std::vector<std::int32_t>> bad, Monitor& monitor, Team* team) {
+                    std::optional<std::vector<std::int32_t>> bad, Monitor& monitor) {
   if (!input.isotropic) return;
-  if (!bad) bad = triangles_below(mesh.plane, mesh.xyz, shape_level::good, {team, input.threads}, monitor);
-  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, std::move(*bad), input.threads, monitor);
+  if (!bad) bad = triangles_below(mesh.plane, mesh.xyz, shape_level::good, input.executor, monitor);
+  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, std::move(*bad), input.executor.threads, monitor);
   if (region.triangles().empty()) return;
   std::vector<std::int32_t> moved;
   constexpr int max_rounds = 4;  // swaps and moves make room for each other

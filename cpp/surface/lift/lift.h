@@ -2,13 +2,11 @@
 // From a plane mesh to the surface.
 #pragma once
 
-#include "support/ranks/team.h"
 #include "surface/patch.h"
 
 namespace carreau {
 
-/// Position of every vertex in space: surf0 once for each that lies on no curve. `team`: processes that share the
-/// evaluations; null: this process alone calls its host.
-void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor, Team* team = nullptr);
+/// Position of every vertex in space: surf0 once for each that lies on no curve.
+void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor);
 
 }  // namespace carreau

@@ -11,14 +11,13 @@
 #include "predicates/polygon_locator.h"
 #include "support/format.h"
 #include "support/ranks/all_that_hold.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/shared_answers.h"
 #include "support/rounding_of.h"
 #include "support/shares.h"
 #include "support/work_sizes.h"
 #include "surface/lift/excess_packet.h"
 #include "surface/lift/thresholds.h"
 #include "surface/sample/face_metric.h"
-#include "surface/sample/shared_answers.h"
 
 namespace carreau {
 
@@ -31,8 +30,8 @@ constexpr double no_size = -1;
 class LiftCheck {
  public:
   LiftCheck(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
-            Monitor& monitor, Team* team)
-      : input_(input), space_(space), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor), team_(team) {}
+            Monitor& monitor)
+      : input_(input), space_(space), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor) {}
 
   std::vector<Vec2> run() {
     if (!input_.isotropic) {
@@ -67,7 +66,7 @@ class LiftCheck {
     const std::size_t imposed = input_.domain->size.size();
     mesh_.normal.assign(mesh_.plane.vertices.size(), {});
     const std::span<const Vec2> uv = std::span<const Vec2>(mesh_.plane.vertices).subspan(imposed);
-    if (!is_shared(team_, uv.size())) {
+    if (!is_shared(input_.executor, uv.size())) {
       prescribed.sample(cad_, input_.ref, 0, uv, [&](std::size_t k, const SurfaceJet& jet, Metric2 m) {
         keep(imposed + k, compare_at(uv[k], jet, m));
       });
@@ -79,7 +78,7 @@ class LiftCheck {
         std::ranges::copy(std::array{c.normal.x(), c.normal.y(), c.normal.z(), c.size, c.agrees ? 1. : 0.}, out + 5 * k);
       });
     };
-    const std::vector<double> all = shared_answers(*team_, input_.ref, {"metrics at vertices", 5, 1, ask}, uv, monitor_);
+    const std::vector<double> all = shared_answers(input_.executor, input_.ref, {"metrics at vertices", 5, 1, ask}, uv, monitor_);
     for (std::size_t k = 0; k < uv.size(); ++k) {
       const double* c = all.data() + 5 * k;
       keep(imposed + k, {{c[0], c[1], c[2]}, c[3], c[4] != 0});
@@ -119,9 +118,7 @@ class LiftCheck {
   /// Returns the results of work(part) for all parts, by the threads and processes that make the patch.
   template <typename Result, typename Work, typename Put, typename Get>
   std::vector<Result> of_parts(std::string_view step, const Work& work, const Put& put, const Get& get) {
-    // Below, each process examines all parts: it would wait longer for the others.
-    const Crew crew{parts() >= 8 ? team_ : nullptr, input_.threads};
-    return shared_work<Result>(crew, step, parts(), false, [&](std::size_t part, Monitor&) { return work(part); }, put, get, monitor_);
+    return shared_work<Result>(input_.executor.shared_if(parts() >= 8), step, parts(), false, [&](std::size_t part, Monitor&) { return work(part); }, put, get, monitor_);
   }
   [[nodiscard]] double squared_promise(int a, int b) const {
     const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
@@ -176,13 +173,7 @@ class LiftCheck {
         if (k % 512 == 0) monitor.checkpoint();
       }
     };
-    std::vector<double> sizes;
-    if (is_shared(team_, uv.size())) {
-      sizes = shared_answers(*team_, input_.ref, {"sizes at vertices", 1, 1, ask}, uv, monitor_);
-    } else {
-      sizes.resize(uv.size());
-      ask(uv, sizes.data(), monitor_);
-    }
+    const std::vector<double> sizes = shared_answers(input_.executor, input_.ref, {"sizes at vertices", 1, 1, ask}, uv, monitor_);
     for (std::size_t k = 0; k < uv.size(); ++k)
       if (const std::size_t v = imposed + k; sizes[k] != no_size)
         mesh_.size[v] = input_.limits.bounded(input_.face, uv[k], mesh_.xyz[v], sizes[k]);
@@ -242,7 +233,6 @@ class LiftCheck {
   const SizeRules& rules_;
   PatchMesh& mesh_;
   Monitor& monitor_;
-  Team* team_;                                 // null: this process alone
   std::vector<std::vector<double>> promised_;  // by part and edge, where sizes vary
   std::vector<Vec2> places_;
 };
@@ -255,8 +245,8 @@ bool agree(const LengthRatios& ratios, const PatchInput& input) noexcept {
 }
 
 std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
-                              PatchMesh& mesh, Monitor& monitor, Team* team) {
-  return LiftCheck(input, space, cad, rules, mesh, monitor, team).run();
+                              PatchMesh& mesh, Monitor& monitor) {
+  return LiftCheck(input, space, cad, rules, mesh, monitor).run();
 }
 
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after) {

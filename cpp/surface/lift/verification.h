@@ -21,10 +21,9 @@ bool agree(const LengthRatios& ratios, const PatchInput& input) noexcept;
 /// answer at the ends (one call a vertex) within the graded field. If sizes come from curvature or from interpolation, the control space
 /// around prescribes it. Chords shorter than their arcs do not count as disagreement. Empty on surfaces that the control space represents.
 /// At most 500 places. If metrics govern, the prescribed metric is evaluated at each vertex inside and compared with the control space's.
-/// Then mesh.size is the size in the mean, sqrt(h1 h2), and mesh.normal is filled. `team`: processes that share all that; null: only this
-/// process.
+/// Then mesh.size is the size in the mean, sqrt(h1 h2), and mesh.normal is filled.
 std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
-                              PatchMesh& mesh, Monitor& monitor, Team* team = nullptr);
+                              PatchMesh& mesh, Monitor& monitor);
 
 /// Returns whether two control spaces differ at one of these places by more than their tolerance explains.
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after);

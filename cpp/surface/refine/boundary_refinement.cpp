@@ -148,7 +148,7 @@ class Refiner {
         failure[i] = error.what();
       }
     };
-    run_each(stale.size(), false, options_.threads, build, monitor_);
+    run_each(stale.size(), false, options_.executor.threads, build, monitor_);
     for (std::size_t i = 0; i < stale.size(); ++i) {
       const int f = stale[i];
       if (failure[i].empty()) {
@@ -187,7 +187,7 @@ class Refiner {
       found[i] = find(asked[i]);
       if (!alone) ask(asked[i], found[i], monitor);
     };
-    run_each(asked.size(), false, options_.threads, look_at, monitor_);
+    run_each(asked.size(), false, options_.executor.threads, look_at, monitor_);
     for (std::size_t i = 0; i < asked.size(); ++i) {
       const int f = asked[i];
       if (alone) ask(f, found[i], monitor_);
@@ -264,7 +264,7 @@ class Refiner {
   void stagger_strips() {
     if (!options_.stagger_strips || !narrow_.empty() || !isotropic_) return;
     rebuild_stale();
-    for (const int c : curves_to_stagger(curve_model_, curves_, result_.domain, options_.threads, monitor_)) {
+    for (const int c : curves_to_stagger(curve_model_, curves_, result_.domain, options_.executor.threads, monitor_)) {
       if (periodic_ != nullptr && !periodic_->empty() && periodic_->has_class[c] != 0) continue;
       stagger(curves_[c], curve_model_);
       mark_stale(c);
@@ -386,7 +386,7 @@ class Refiner {
       result_.failure[f] = why_not(static_cast<int>(f));
       if (!result_.failure[f].empty()) result_.domain[f].reset();
     };
-    run_each(result_.domain.size(), false, options_.threads, look, monitor_);
+    run_each(result_.domain.size(), false, options_.executor.threads, look, monitor_);
     for (const auto& [f, why] : unbuilt_) result_.failure[f] = why;
   }
 

@@ -70,13 +70,13 @@ Intersections Replacement::find_crossings(const SurfaceMesh& mesh) {
   const FlatMesh flat = flatten(mesh, false);
   const std::int64_t limit = IntersectionOptions{}.limit;
   if (result_.report.crossings != static_cast<std::int64_t>(result_.crossings.size()))
-    return find_intersections(flat.vertices, flat.triangles, limit, {options_.team, options_.threads}, monitor_);
+    return find_intersections(flat.vertices, flat.triangles, limit, options_.executor, monitor_);
   std::vector<std::array<std::int32_t, 3>> triangles;  // as their numbers in the pairs are
   triangles.reserve(result_.mesh.triangle_count());
   for (const FaceMesh& face : result_.mesh.faces)
     for (const auto& [a, b, c] : face.triangles) triangles.push_back({face.vertex[a], face.vertex[b], face.vertex[c]});
   return find_intersections_again({result_.mesh.vertices, triangles, result_.crossings}, flat.vertices, flat.triangles, limit,
-                                  {options_.team, options_.threads}, monitor_);
+                                  options_.executor, monitor_);
 }
 
 std::int64_t Replacement::crossings_before() {
@@ -89,7 +89,7 @@ Candidate Replacement::judge(StartedMesh& mesh) {
   candidate.crossings = find_crossings(candidate.made.mesh);
   candidate.crosses = candidate.crossings.count > 0 && candidate.crossings.count > crossings_before();
   candidate.why = candidate.crosses ? "more triangles would cross"
-                                    : why_worse(candidate.made.mesh, result_.mesh, options_.threads, monitor_);
+                                    : why_worse(candidate.made.mesh, result_.mesh, options_.executor.threads, monitor_);
   return candidate;
 }
 

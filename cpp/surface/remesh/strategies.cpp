@@ -146,7 +146,7 @@ class FrameRemesher {
   Try make(const Strategy& strategy, bool coarsely) {
     StartedMesh start = replacement_.start();
     CrossPatchMesh& free = *start.free;
-    const ShapeSummary before = summarise_shapes(free, options_.threads, monitor_);
+    const ShapeSummary before = summarise_shapes(free, options_.executor.threads, monitor_);
     free.budget = budget_of(strategy, before);
     // A larger loss of the mean is not recovered.
     const bool may_end = !frame_.everywhere && !frame_.elements && strategy.price < infinity && strategy.kept != keep_all;
@@ -176,7 +176,7 @@ class FrameRemesher {
       const std::span<const std::int32_t> around(changed.data(), round > 0 && frame_.everywhere ? changed.size() : 0);
       report += remesh_divided(free, frame_.workers, monitor_, frame_.everywhere, thorough, around);
       if (strategy.kept == keep_all) free.budget.price *= price_growth;
-      done = round > first || !(least > 0) || summarise_shapes(free, options_.threads, monitor_).mean >= least;
+      done = round > first || !(least > 0) || summarise_shapes(free, options_.executor.threads, monitor_).mean >= least;
     }
     monitor_.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                         std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
@@ -208,11 +208,11 @@ class FrameRemesher {
 
   // If the mean has dropped slightly, smoothing recovers it.
   ShapeSummary recover_mean(CrossPatchMesh& mesh, double mean) {
-    ShapeSummary now = summarise_shapes(mesh, options_.threads, monitor_);
+    ShapeSummary now = summarise_shapes(mesh, options_.executor.threads, monitor_);
     for (const double below : regained_below) {
       if (!falls(now.mean, mean) || now.mean < mean - max_regained) break;
       polish(mesh, below, monitor_);
-      now = summarise_shapes(mesh, options_.threads, monitor_);
+      now = summarise_shapes(mesh, options_.executor.threads, monitor_);
     }
     return now;
   }
@@ -269,7 +269,7 @@ class FrameRemesher {
     around.insert(around.end(), placed->seams.begin(), placed->seams.end());
     around.insert(around.end(), placed->kept.begin(), placed->kept.end());
     if (!around.empty()) remesh(free, monitor_, true, false, around);
-    if (summarise_shapes(free, options_.threads, monitor_).mean < min_mean) {
+    if (summarise_shapes(free, options_.executor.threads, monitor_).mean < min_mean) {
       free.budget = budget_of(of_poor_planes, {});
       remesh_between_lines(start, of_poor_planes, false, true, 0, 0);
     }

@@ -21,14 +21,14 @@ double extent_of(const std::vector<Vec3>& points) {
 }  // namespace
 
 std::optional<EdgeSizes> bound_growth(const PatchInput& input, Cad& cad, const SizeRules& rules,
-                                      std::span<const Vec2> probe_points, Monitor& monitor, ControlSpace& space, Team* team) {
+                                      std::span<const Vec2> probe_points, Monitor& monitor, ControlSpace& space) {
   if (input.limits.edges == nullptr) return {};
   const double extent = extent_of(input.curve_xyz);
   if (space.measure() <= few_triangles + input.limits.edges->triangles_within(extent)) return {};
   EdgeSizes edges = *input.limits.edges;
   PatchInput tried = input;
   tried.limits.edges = nullptr;
-  ControlSpace without = sample_face(tried, cad, rules, probe_points, monitor, nullptr, team);
+  ControlSpace without = sample_face(tried, cad, rules, probe_points, monitor, nullptr);
   const auto bearable = [&](const ControlSpace& s) {
     return s.measure() <= max_growth_excess * (without.measure() + edges.triangles_within(extent));
   };
@@ -36,7 +36,7 @@ std::optional<EdgeSizes> bound_growth(const PatchInput& input, Cad& cad, const S
   for (double least = growth_raise * edges.smallest(); least < extent; least *= growth_raise) {
     edges = edges.bounded_below(least);
     tried.limits.edges = &edges;
-    space = sample_face(tried, cad, rules, probe_points, monitor, nullptr, team);
+    space = sample_face(tried, cad, rules, probe_points, monitor, nullptr);
     if (bearable(space)) return edges;
   }
   space = std::move(without);

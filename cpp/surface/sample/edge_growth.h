@@ -17,7 +17,6 @@ namespace carreau {
 /// well. Evaluates the face again only if the space promises many triangles. Throws the exceptions of the host, and
 /// Cancelled.
 std::optional<EdgeSizes> bound_growth(const PatchInput& input, Cad& cad, const SizeRules& rules,
-                                      std::span<const Vec2> probe_points, Monitor& monitor, ControlSpace& space,
-                                      Team* team = nullptr);
+                                      std::span<const Vec2> probe_points, Monitor& monitor, ControlSpace& space);
 
 }  // namespace carreau

@@ -9,7 +9,7 @@
 #include "support/infinity.h"
 #include "support/rounding_of.h"
 #include "surface/sample/face_metric.h"
-#include "surface/sample/shared_answers.h"
+#include "support/ranks/shared_answers.h"
 #include "surface/sample/thresholds.h"
 
 namespace carreau {
@@ -47,7 +47,7 @@ struct Samples {
 
 // Shares the samples among all processes that make the patch. Each process samples from the calling thread, since one
 // thread uses `prescribed`.
-void share_samples(Team& team, int ref, Cad& cad, FaceMetric& prescribed, std::span<const Vec2> uv, const Samples& out,
+void share_samples(const Executor& executor, int ref, Cad& cad, FaceMetric& prescribed, std::span<const Vec2> uv, const Samples& out,
                    Monitor& monitor) {
   constexpr std::size_t width = 9;
   const auto ask = [&](std::span<const Vec2> some, double* row, Monitor&) {
@@ -57,7 +57,7 @@ void share_samples(Team& team, int ref, Cad& cad, FaceMetric& prescribed, std::s
       row += width;
     });
   };
-  const std::vector<double> all = shared_answers(team, ref, {"samples of a face", width, 1, ask}, uv, monitor);
+  const std::vector<double> all = shared_answers(executor, ref, {"samples of a face", width, 1, ask}, uv, monitor);
   for (std::size_t k = 0; k < uv.size(); ++k) {
     const double* row = all.data() + k * width;
     out.jets[k].su = {row[0], row[1], row[2]}, out.jets[k].sv = {row[3], row[4], row[5]};
@@ -85,7 +85,7 @@ void SpeedWatch::find_usual(std::span<const SurfaceJet> jets) {
 }
 
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> probe_points,
-                         Monitor& monitor, SampledFacts* facts, Team* team) {
+                         Monitor& monitor, SampledFacts* facts) {
   FaceMetric prescribed = prescription_of(input, rules, monitor);
   std::vector<SurfaceJet> jets;
   const SampledFacts asked = facts != nullptr ? *facts : SampledFacts{};
@@ -98,11 +98,12 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
       if (!input.isotropic) facts->isotropic = facts->isotropic && has_one_size(jets[i], metric[i]);
     }
   };
+  const bool costs_nothing = input.is_plane && rules.constant();
   const SurfaceSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric,
                                      std::span<SurfaceTangents> tangents) {
     jets.resize(uv.size());
-    if (is_shared(team, uv.size())) {
-      share_samples(*team, input.ref, cad, prescribed, uv, {jets, metric}, monitor);
+    if (!costs_nothing && is_shared(input.executor, uv.size())) {
+      share_samples(input.executor, input.ref, cad, prescribed, uv, {jets, metric}, monitor);
       speeds.look(uv, jets);
     } else {
       cad.surface(input.ref, prescribed.wants(), uv, jets);

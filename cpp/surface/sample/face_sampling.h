@@ -7,7 +7,6 @@
 
 #include "control_space/sampled_normals.h"
 #include "support/infinity.h"
-#include "support/ranks/team.h"
 #include "surface/patch.h"
 
 namespace carreau {
@@ -43,9 +42,9 @@ class SpeedWatch {
 };
 
 /// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `probe_points`: see
-/// ControlSpaceOptions. `team`: processes that share the evaluations by their hosts; null: only this process evaluates.
+/// ControlSpaceOptions.
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> probe_points,
-                         Monitor& monitor, SampledFacts* facts = nullptr, Team* team = nullptr);
+                         Monitor& monitor, SampledFacts* facts = nullptr);
 
 /// Sizes in the mean, sqrt(h1 h2), that FaceMetric prescribes within input.limits.
 std::vector<double> prescribed_sizes(const PatchInput& input, Cad& cad, const SizeRules& rules,

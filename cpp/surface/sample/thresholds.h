@@ -26,9 +26,4 @@ inline constexpr double max_growth_excess = 2;
 /// Times. Factor on the least size of edges, from one round to the next. [limits_test]
 inline constexpr double growth_raise = 8;
 
-// Questions that processes share (shared_answers) [time only]
-/// Places. Below, each process evaluates all places: to wait for the others twice takes longer than a thousand answers that take half a
-/// microsecond each.
-inline constexpr std::size_t least_shared = 1024;
-
 }  // namespace carreau::thresholds::sample

@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "grid_mesh.h"
+#include "mesh/distance/triangle_distance.h"
 #include "mesh/quality.h"
-#include "mesh/triangle_distance.h"
 #include "support/gauss.h"
 
 namespace carreau {

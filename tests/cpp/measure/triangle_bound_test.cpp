@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-#include "mesh/triangle_distance.h"
+#include "mesh/distance/triangle_distance.h"
 
 namespace carreau {
 namespace {

@@ -238,7 +238,7 @@ TEST(Intersections, AreFoundByManyProcessesAsByOne) {
     EXPECT_GE(one.count, 2 * n);
     const auto thrown = testing::in_processes(3, [&](Team& team) {
       Monitor own;
-      const Intersections ours = find_intersections(vertices, triangles, limit, Crew{&team, 2}, own);
+      const Intersections ours = find_intersections(vertices, triangles, limit, Executor{&team, 2}, own);
       EXPECT_EQ(ours.count, one.count);
       ASSERT_EQ(ours.pairs.size(), one.pairs.size());
       for (std::size_t k = 0; k < one.pairs.size(); ++k) {
@@ -275,7 +275,7 @@ TEST(Intersections, AreFoundInAChangedMeshFromPreviousOnes) {
     for (Indices& t : left) std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(upto(3)), t.end());
     const Intersections whole = find_intersections(now, left, {}, monitor);
     const Intersections found = find_intersections_again({vertices, triangles, before.pairs}, now, left, IntersectionOptions{}.limit,
-                                                         Crew{nullptr, 1 + run % 3}, monitor);
+                                                         Executor{nullptr, 1 + run % 3}, monitor);
     ASSERT_EQ(found.count, whole.count) << run;
     ASSERT_EQ(found.pairs.size(), whole.pairs.size());
     for (std::size_t k = 0; k < whole.pairs.size(); ++k) {
@@ -296,8 +296,8 @@ TEST(Intersections, PassOverTrianglesThatAreNone) {
   EXPECT_EQ(found_in(vertices, triangles), (Pairs{{0, 1}}));
   EXPECT_TRUE(found_in({}, {}).empty());
   Monitor monitor;
-  EXPECT_EQ(find_intersections_again({{}, {}, {}}, vertices, triangles, 10, Crew{}, monitor).count, 1);
-  EXPECT_EQ(find_intersections_again({vertices, triangles, {}}, vertices, triangles, 10, Crew{}, monitor).count, 0);
+  EXPECT_EQ(find_intersections_again({{}, {}, {}}, vertices, triangles, 10, Executor{}, monitor).count, 1);
+  EXPECT_EQ(find_intersections_again({vertices, triangles, {}}, vertices, triangles, 10, Executor{}, monitor).count, 0);
 }
 
 /// Twice as many triangles take about twice the time; a comparison of all pairs would take four times as long.

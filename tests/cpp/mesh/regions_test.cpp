@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/regions/regions.h"
+#include "mesh/regions.h"
 
 #include <gtest/gtest.h>
 

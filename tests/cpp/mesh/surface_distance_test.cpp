@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/surface_distance.h"
+#include "mesh/distance/surface_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -284,13 +284,13 @@ TEST(SurfaceDistance, TheSameForAnyNumberOfProcesses) {
   EXPECT_GT(largest, 0.9 * a.lower);
   const auto thrown = testing::in_processes(3, [&](Team& team) {
     Monitor own;
-    const Crew crew{&team, 2};
+    const Executor executor{&team, 2};
     std::vector<double> ours;
-    const DistanceBounds b = bound_distance(sphere.view(), box_around.view(), {}, crew, own, &ours);
+    const DistanceBounds b = bound_distance(sphere.view(), box_around.view(), {}, executor, own, &ours);
     EXPECT_EQ(a.lower, b.lower);
     EXPECT_EQ(a.upper, b.upper);
     EXPECT_EQ(one, ours);
-    EXPECT_EQ(largest, largest_distance(sphere.vertices, sphere.triangles, box_around.vertices, box_around.triangles, own, crew));
+    EXPECT_EQ(largest, largest_distance(sphere.vertices, sphere.triangles, box_around.vertices, box_around.triangles, own, executor));
   });
   for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
 }

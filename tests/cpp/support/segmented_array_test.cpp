@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/segmented_array.h"
+#include "support/memory/segmented_array.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "common/thread_team.h"
 #include "support/error.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 #include "support/ranks/dealt_work.h"
 #include "support/ranks/packet.h"
 #include "support/ranks/triangle_packet.h"
@@ -204,9 +204,9 @@ TEST(SharedWork, ResultsMatchTheirNumbers) {
   const auto work = [](std::size_t i, Monitor&) { return std::string(i, 'x'); };
   const auto put = [](PacketWriter& packet, const std::string& text) { packet.put(std::string_view(text)); };
   const auto get = [](PacketReader& packet) { return packet.text(); };
-  const auto make = [&](const Crew& crew) {
+  const auto make = [&](const Executor& executor) {
     Monitor silent;
-    return shared_work<std::string>(crew, "work", 20, false, work, put, get, silent);
+    return shared_work<std::string>(executor, "work", 20, false, work, put, get, silent);
   };
   const std::vector<std::string> one = make({});
   for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].size(), i);

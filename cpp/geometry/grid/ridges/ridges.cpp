@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "geometry/grid/differences.h"
-#include "geometry/grid/thresholds.h"
+#include "geometry/grid/ridges/thresholds.h"
 #include "support/angles.h"
 
 namespace carreau::grid {
@@ -53,7 +53,7 @@ class Nodes {
     for (std::size_t k = 0; k < count; ++k) {
       const Node &a = along_u ? surface_.node(0, k) : surface_.node(k, 0), &b = along_u ? surface_.node(last, k) : surface_.node(k, last);
       const Vec3 &p = along_u ? a.su : a.sv, &q = along_u ? b.su : b.sv;
-      if (is_finite(a.s) != is_finite(b.s) || norm(a.s - b.s) > 0 || norm(p - q) > thresholds::same_slope * norm(p)) return false;
+      if (is_finite(a.s) != is_finite(b.s) || norm(a.s - b.s) > 0 || norm(p - q) > thresholds::ridges::same_slope * norm(p)) return false;
     }
     return true;
   }
@@ -73,7 +73,7 @@ struct Forms {
     mean = (e * p - 2 * f * m + g * l) / (2 * area);
     half = std::sqrt(std::max(0., mean * mean - (l * p - m * m) / area));
   }
-  [[nodiscard]] bool singular() const { return !(area > thresholds::flat_node * e * g); }
+  [[nodiscard]] bool singular() const { return !(area > thresholds::ridges::flat_node * e * g); }
 };
 
 /// Both principal curvatures, the larger one first; NaN at singular nodes.
@@ -201,7 +201,7 @@ class Finder {
     if (!(det > 0)) return;
     const double x = (qq * dot(p, t) - pq * dot(q, t)) / det, y = (pp * dot(q, t) - pq * dot(p, t)) / det;
     const double bending = x * (slope[1] - slope[0]) + y * (slope[2] - slope[0]);
-    if (!(bending < -thresholds::ridge_falls * curvature * curvature * curvature)) return;
+    if (!(bending < -thresholds::ridges::min_fall * curvature * curvature * curvature)) return;
     std::array<Edge, 2> keys;
     for (std::size_t k = 0; k < 2; ++k) {
       const Edge& edge = ends[k].first;
@@ -216,7 +216,7 @@ class Finder {
     const Bend &a = field_.at_node(edge.first), &b = field_.at_node(edge.second);
     double x = 0, y = 1, at_x = a.slope, at_y = dot(a.along, b.along) < 0 ? -b.slope : b.slope;
     const Vec2 start = uv(edge.first), step = uv(edge.second) - start;
-    for (int k = 0, side = 0; k < thresholds::ridge_steps && at_x != at_y; ++k) {
+    for (int k = 0, side = 0; k < thresholds::ridges::max_evaluations && at_x != at_y; ++k) {
       const double t = (x * at_y - y * at_x) / (at_y - at_x);
       const Bend middle = field_.at(start + t * step);
       const double turn = dot(a.along, middle.along);
@@ -269,7 +269,7 @@ class Finder {
     const auto near = [](const std::vector<double>& knots, double x) {
       const std::size_t n = knots.size();
       const double first = (x - knots[0]) / (knots[1] - knots[0]), last = (knots[n - 1] - x) / (knots[n - 1] - knots[n - 2]);
-      return std::min(first, last) < thresholds::ridge_of_border;
+      return std::min(first, last) < thresholds::ridges::beside_border;
     };
     const auto count = std::count_if(line.begin(), line.end(), [&](const Vec2& p) { return near(surface_.u, p.x()) || near(surface_.v, p.y()); });
     return 2 * static_cast<std::size_t>(count) > line.size();
@@ -280,7 +280,7 @@ class Finder {
     std::vector<Vec3> kept;
     for (std::size_t k = 0; k < line.size(); ++k) {
       const SurfaceJet at = surface_.at(line[k]);
-      const double step = thresholds::ridge_step * std::sqrt(norm(cross(at.su, at.sv)) * cell_area(line[k]));
+      const double step = thresholds::ridges::step * std::sqrt(norm(cross(at.su, at.sv)) * cell_area(line[k]));
       const bool last = k + 1 == line.size(), near = k > 0 && norm(at.s - kept.back()) < step;
       if (near && last && !closed && kept.size() > 1) kept.back() = at.s;
       if (near || (last && closed && norm(at.s - kept.front()) < step)) continue;

@@ -190,7 +190,7 @@ class ElementRounds {
   }
 
   ElementCrossings run() {
-    if (has_quads(options_.element)) crossings_before_ = find_crossing_places(made_, options_.threads, monitor_);
+    if (has_quads(options_.element)) crossings_before_ = find_crossing_places(made_, options_.executor.threads, monitor_);
     const std::size_t wrong_before = find_wrong_joints(made_.mesh).size();
     KeptTriangles kept;
     for (int round = 1;; ++round) {
@@ -211,7 +211,7 @@ class ElementRounds {
     if (!fresh_.empty())
       monitor_.message(Level::warning, std::to_string(fresh_.size()) +
                                            " pairs of triangles cross, of straight halves of elements: sizes are too large there");
-    return {find_crossing_places(made_, options_.threads, monitor_), std::move(fresh_)};
+    return {find_crossing_places(made_, options_.executor.threads, monitor_), std::move(fresh_)};
   }
 
  private:
@@ -234,7 +234,7 @@ class ElementRounds {
     elements_ = std::make_unique<CrossPatchElements>(before_, frame_, options_, cad_, kept, made_, monitor_);
     elements_->make_straight(held, gently);
     fresh_.clear();
-    if (has_quads(options_.element)) fresh_ = new_places(crossings_before_, find_crossing_places(made_, options_.threads, monitor_));
+    if (has_quads(options_.element)) fresh_ = new_places(crossings_before_, find_crossing_places(made_, options_.executor.threads, monitor_));
   }
 
   const SurfaceMesh& before_;

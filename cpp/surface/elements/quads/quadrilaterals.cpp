@@ -91,7 +91,7 @@ class Quadrilaterals {
   template <typename Use>
   void for_each(const Use& use, bool bound = false) {
     run_each(
-        faces_.size(), bound, work_.options.threads, [&](std::size_t k, Monitor& monitor) { use(faces_[k], monitor); },
+        faces_.size(), bound, work_.options.executor.threads, [&](std::size_t k, Monitor& monitor) { use(faces_[k], monitor); },
         work_.monitor);
   }
 

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "mesh/distance/triangle_distance.h"
 #include "support/rounding_of.h"
 #include "surface/remesh/bounds/thresholds.h"
-#include "mesh/triangle_distance.h"
 
 namespace carreau {
 

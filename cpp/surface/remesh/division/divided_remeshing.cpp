@@ -10,7 +10,7 @@
 
 #include "metric/metric2.h"
 #include "support/error.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 #include "support/stepped_tasks.h"
 #include "surface/remesh/base/thresholds.h"
 #include "surface/remesh/division/cuts.h"
@@ -75,7 +75,7 @@ class DividedRemeshing {
       : mesh_(mesh), workers_(workers), monitor_(monitor), everywhere_(everywhere), thorough_(thorough) {}
 
   RemeshingReport run(const std::vector<float>& work) {
-    if (workers_.team != nullptr) require_same_mesh();
+    require_same_mesh();
     Vertices worked;
     for (std::size_t t = 0; t < work.size(); ++t)
       if (work[t] > 0) worked.push_back(static_cast<std::int32_t>(t));
@@ -88,15 +88,18 @@ class DividedRemeshing {
  private:
   // Parts fit together only where all processes have the same mesh.
   void require_same_mesh() const {
-    LongChecksum sum;
-    for (const auto& t : mesh_.triangles())
-      for (const std::int32_t v : t) sum.add(static_cast<std::uint64_t>(v));
-    std::vector<Vec3> places;
-    std::vector<double> sizes;
-    for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh_.vertices()); ++v)
-      places.push_back(mesh_.position(v)), places.push_back(mesh_.place(v).normal), sizes.push_back(mesh_.size(v));
-    sum.add(places), sum.add(sizes);
-    workers_.team->require_same("cross-patch mesh", sum.text(), [](int rank) {
+    const auto sum_of_mesh = [&] {
+      LongChecksum sum;
+      for (const auto& t : mesh_.triangles())
+        for (const std::int32_t v : t) sum.add(static_cast<std::uint64_t>(v));
+      std::vector<Vec3> places;
+      std::vector<double> sizes;
+      for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh_.vertices()); ++v)
+        places.push_back(mesh_.position(v)), places.push_back(mesh_.place(v).normal), sizes.push_back(mesh_.size(v));
+      sum.add(places), sum.add(sizes);
+      return sum.text();
+    };
+    workers_.require_same("cross-patch mesh", sum_of_mesh, [](int rank) {
       return "the mesh of rank " + std::to_string(rank) +
              " differs from the mesh of rank 0 before cross-patch remeshing: its callbacks or parameters differ";
     });
@@ -137,7 +140,7 @@ class DividedRemeshing {
 
   std::vector<EditedPart> edit(const Division& division, const Vertices& around) {
     return shared_work<EditedPart>(
-        {workers_.team, workers_.threads}, "parts of a cross-patch mesh", division.parts.size(), !workers_.hosts_threads,
+        workers_, "parts of a cross-patch mesh", division.parts.size(), !workers_.hosts_threads,
         [&](std::size_t p, Monitor& of_part) { return edit_part(division, p, around, of_part); },
         [](PacketWriter& packet, const EditedPart& part) { part.put(packet); }, &EditedPart::from, monitor_);
   }

@@ -14,14 +14,12 @@
 namespace carreau {
 
 /// The threads and processes that remesh parts of a mesh. The mesh does not depend on it.
-struct RemeshingWorkers {
-  Team* team = nullptr;       ///< processes; null: this one alone
-  int threads = 1;
-  bool hosts_threads = false; ///< several threads may call the host
+struct RemeshingWorkers : Executor {
+  bool hosts_threads = false;  ///< several threads may call the host
 
   RemeshingWorkers() = default;
   RemeshingWorkers(const CompositeOptions& options, const Cad& cad)
-      : team(options.team), threads(options.threads), hosts_threads(asks_from_threads(options, cad)) {}
+      : Executor(options.executor), hosts_threads(asks_from_threads(options, cad)) {}
 };
 
 /// remesh(); in three rounds if there are enough triangles to remesh that cuts pay. The first round cuts the mesh into parts with a fixed

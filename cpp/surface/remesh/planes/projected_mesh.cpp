@@ -269,11 +269,14 @@ std::vector<std::int32_t> without_mesh(const std::vector<MadeChart>& charts) {
 }
 
 // Charts fit together only where all processes cut the same surface by the same sizes.
-void require_same_surface(Team& team, const SurfaceMesh& mesh, std::span<const double> size) {
-  LongChecksum sum;
-  sum.add(mesh.vertices);
-  for (const double h : size) sum.add(std::bit_cast<std::uint64_t>(h));
-  team.require_same<InvalidModel>("surface of charts", sum.text(), [](int rank) {
+void require_same_surface(const Executor& executor, const SurfaceMesh& mesh, std::span<const double> size) {
+  const auto sum_of_surface = [&] {
+    LongChecksum sum;
+    sum.add(mesh.vertices);
+    for (const double h : size) sum.add(std::bit_cast<std::uint64_t>(h));
+    return sum.text();
+  };
+  executor.require_same<InvalidModel>("surface of charts", sum_of_surface, [](int rank) {
     return "the surface, or its sizes, differ on rank " + std::to_string(rank) +
            " from rank 0: its callbacks or parameters differ";
   });
@@ -289,13 +292,13 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
     monitor.message(Level::detail, "no parametric remeshing: " + why);
     return {};
   };
-  if (options.crew.team != nullptr) require_same_surface(*options.crew.team, before, size);
+  require_same_surface(options.executor, before, size);
   const Charts& atlas = *frame.charts;
   if (std::ranges::any_of(atlas.triangles(), [](const Charts::Triangle& t) { return t.turned; }))
     return refuse("a face is turned");
   const FlatAtlas flat(atlas, before, frame.jets);
   const BorderSource source{
-      flat, frame.lines, worked, size, tolerances, options.crew.threads, cad, frame.twin};
+      flat, frame.lines, worked, size, tolerances, options.executor.threads, cad, frame.twin};
   ProjectedCharts found = find_charts(flat, monitor);
   if (!frame.kept.empty()) keep_triangles(flat, frame.kept, found);
   std::optional<Plan> plan;
@@ -317,7 +320,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
                         plan->xyz, options.max_triangles},
                        cad, own);
       };
-      charts = shared_work<MadeChart>(options.crew, "charts", plan->charts.size(), !cad.reentrant(), work, put, get,
+      charts = shared_work<MadeChart>(options.executor, "charts", plan->charts.size(), !cad.reentrant(), work, put, get,
                                       monitor);
       wrong = without_mesh(charts);
       if (wrong.empty()) break;

@@ -5,13 +5,13 @@
 #include <optional>
 #include <span>
 
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 #include "surface/remesh/frame.h"
 
 namespace carreau {
 
 struct ProjectedOptions {
-  Crew crew = {};  ///< distributes charts; the mesh does not depend on it
+  Executor executor = {};  ///< distributes charts; the mesh does not depend on it
   std::int64_t max_triangles = 0;
 };
 

@@ -33,7 +33,7 @@ std::optional<PlaneMesh> cut(const PlaneDomain& domain, const ControlSpace& spac
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   Monitor monitor;
   PlaneMesherOptions options;
-  options.threads = threads;
+  options.executor.threads = threads;
   return plane::mesh_divided(domain, space, known_of(space), options, monitor, 90'000);
 }
 void expect_same(const PlaneMesh& one, const PlaneMesh& other) {
@@ -134,7 +134,7 @@ TEST(Division, IsTheSameForAnyNumberOfProcesses) {
     const auto thrown = in_processes(processes, [&](Team& team) {
       Monitor monitor;
       PlaneMesherOptions options;
-      options.team = &team;
+      options.executor.team = &team;
       const auto mesh = plane::mesh_divided(c.domain, space, known_of(space), options, monitor, 90'000);
       ASSERT_TRUE(mesh);
       expect_same(*mesh, *one);
@@ -149,7 +149,7 @@ TEST(Division, LeavesStripsAlone) {
   ASSERT_GT(space.measure(), plane::triangles_a_piece);
   Monitor monitor;
   PlaneMesherOptions options;
-  options.threads = 3;
+  options.executor.threads = 3;
   const PlaneMesh mesh = mesh_plane(c.domain, space, options, monitor);
   expect_same(mesh, uncut(c.domain, space));
 }
@@ -179,7 +179,7 @@ TEST(Division, Stops) {
     StopsAt monitor(quarter * (never.seen - 1) / 3);
     EXPECT_THROW((void)plane::mesh_divided(c.domain, space, known_of(space), options, monitor), Cancelled) << quarter;
   }
-  options.threads = 3;
+  options.executor.threads = 3;
   for (const int rank : {0, 2, 5}) {
     StopsAt monitor(rank);
     EXPECT_THROW((void)plane::mesh_divided(c.domain, space, known_of(space), options, monitor), Cancelled) << rank;
@@ -224,7 +224,7 @@ TEST(Division, LeavesSmallDomainsAlone) {
   ASSERT_LT(space.measure(), 60'000);
   Monitor monitor;
   PlaneMesherOptions options;
-  options.threads = 7;
+  options.executor.threads = 7;
   expect_same(mesh_plane(c.domain, space, options, monitor), uncut(c.domain, space));
 }
 

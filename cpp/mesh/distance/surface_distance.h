@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "support/monitor.h"
-#include "support/ranks/crew.h"
+#include "support/ranks/executor.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -20,10 +20,10 @@ struct TrianglesOfSpace {
 };
 
 /// The largest distance to the triangles of the second mesh from the vertices, the middles of edges and the middles of
-/// triangles of the first mesh. 0 if one of them has no triangles. The result does not depend on the crew.
+/// triangles of the first mesh. 0 if one of them has no triangles. The result does not depend on the executor.
 double largest_distance(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                         std::span<const Vec3> to_vertices, std::span<const std::array<std::int32_t, 3>> to_triangles,
-                        Monitor& monitor, const Crew& crew = {});
+                        Monitor& monitor, const Executor& executor = {});
 
 /// Bounds of the largest distance from all points of one mesh to a second mesh, rounding included.
 struct DistanceBounds {
@@ -47,13 +47,13 @@ struct DistanceTolerance {
 /// the triangles that are nearest and then in halves, until one triangle of `to` shows of each piece that it is near
 /// enough. If that takes too many pieces, returns the upper bound reached. `of_triangles`, unless it is null, receives an upper bound for
 /// each triangle, and `farthest` the farthest of its corners and its middle. Both 0 if one of the meshes has no triangles. The result does
-/// not depend on the crew. Throws Cancelled.
+/// not depend on the executor. Throws Cancelled.
 DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
-                              const Crew& crew, Monitor& monitor, std::vector<double>* of_triangles = nullptr,
+                              const Executor& executor, Monitor& monitor, std::vector<double>* of_triangles = nullptr,
                               std::vector<FarPoint>* farthest = nullptr);
 inline DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
                                      int threads, Monitor& monitor, std::vector<double>* of_triangles = nullptr) {
-  return bound_distance(from, to, tolerance, Crew{nullptr, threads}, monitor, of_triangles);
+  return bound_distance(from, to, tolerance, Executor{nullptr, threads}, monitor, of_triangles);
 }
 
 }  // namespace carreau

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "support/monitor.h"
-#include "support/ranks/team.h"
+#include "support/ranks/executor.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -23,13 +23,13 @@ struct HostQuestion {
   std::function<void(std::span<const Vec2> uv, double* out, Monitor& monitor)> ask;
 };
 
-/// Returns whether the processes of the communicator share the evaluation of n places. False for null.
-[[nodiscard]] bool is_shared(const Team* team, std::size_t n) noexcept;
+/// Returns whether several processes share the evaluation of n places.
+[[nodiscard]] bool is_shared(const Executor& executor, std::size_t n) noexcept;
 
-/// Answers at all places of the face of reference `ref`, in their order; all processes call it and get the same. Each process first
+/// Answers at all places of the face of reference `ref`, in their order. If processes share them, all call it and get the same; each first
 /// evaluates its host at one of 64 places. Throws InvalidModel, which names face and process, if those answers differ. Throws the error of
 /// a process whose host alone fails there. If all fail, the error comes from one process.
-std::vector<double> shared_answers(Team& team, int ref, const HostQuestion& question, std::span<const Vec2> uv,
+std::vector<double> shared_answers(const Executor& executor, int ref, const HostQuestion& question, std::span<const Vec2> uv,
                                    Monitor& monitor);
 
 /// Throws InvalidModel: the face of reference `ref` in that process differs from the face in the first.

@@ -41,12 +41,12 @@ void expect_same(const VertexPrescriptions& a, const VertexPrescriptions& b) {
       ASSERT_EQ(a.metrics[v].*entry, b.metrics[v].*entry) << v;
 }
 
-/// make(crew) of three processes with two threads each, and of one with three, equals the result of one thread.
+/// make(executor) of three processes with two threads each, and of one with three, equals the result of one thread.
 template <typename Make, typename Same>
 void expect_same_of_all(const Make& make, const Same& same) {
-  const auto one = make(Crew{});
-  same(one, make(Crew{nullptr, 3}));
-  const auto thrown = in_processes(3, [&](Team& team) { same(one, make(Crew{&team, 2})); });
+  const auto one = make(Executor{});
+  same(one, make(Executor{nullptr, 3}));
+  const auto thrown = in_processes(3, [&](Team& team) { same(one, make(Executor{&team, 2})); });
   for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
 }
 
@@ -55,7 +55,7 @@ TEST(SharedEstimates, MatchOneThread) {
   for (const EstimatorOptions& options :
        {options_of(ErrorSource::hessian, ErrorShape::isotropic), options_of(ErrorSource::hessian, ErrorShape::anisotropic),
         options_of(ErrorSource::curvature, ErrorShape::graph), options_of(ErrorSource::deformation, ErrorShape::isotropic)})
-    expect_same_of_all([&](const Crew& crew) { return estimate(mesh.field(), options, crew); }, expect_same);
+    expect_same_of_all([&](const Executor& executor) { return estimate(mesh.field(), options, executor); }, expect_same);
 }
 
 TEST(SharedEstimates, SeveralFieldsMatchOneThread) {
@@ -63,7 +63,7 @@ TEST(SharedEstimates, SeveralFieldsMatchOneThread) {
   std::vector<double> values;
   for (const Vec3& p : mesh.vertices) values.insert(values.end(), {front(p), p.x() * p.x() * p.x()});
   const EstimatorOptions options = options_of(ErrorSource::hessian, ErrorShape::anisotropic);
-  expect_same_of_all([&](const Crew& crew) { return estimate_all(mesh.vertices, mesh.triangles, values, 2, options, crew); },
+  expect_same_of_all([&](const Executor& executor) { return estimate_all(mesh.vertices, mesh.triangles, values, 2, options, executor); },
                      expect_same);
 }
 
@@ -79,8 +79,8 @@ TEST(SharedEstimates, EachProcessEvaluatesItsShareOfAFunction) {
   const std::int64_t alone = asked.exchange(0);
   const auto thrown = in_processes(4, [&](Team& team) {
     Monitor silent;
-    const Crew crew{&team, 1};
-    expect_same(one, estimate_function(mesh.vertices, mesh.triangles, shared_function(exact, crew, silent), options, crew));
+    const Executor executor{&team, 1};
+    expect_same(one, estimate_function(mesh.vertices, mesh.triangles, shared_function(exact, executor, silent), options, executor));
   });
   for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
   // All points once, and of 64 one more by each.
@@ -158,7 +158,7 @@ TEST(SharedTransfer, MatchesOneThread) {
   const SurfaceMesh from = columns(square_mesh(24), 7), to = columns(square_mesh(37), 9);  // two faces of the new mesh are no faces of the old one
   std::vector<double> values;
   for (const Vec3& p : from.vertices) values.insert(values.end(), {front(p), p.x()});
-  expect_same_of_all([&](const Crew& crew) { return transfer_field(from, to, values, 2, crew); },
+  expect_same_of_all([&](const Executor& executor) { return transfer_field(from, to, values, 2, executor); },
                      [](const TransferredField& a, const TransferredField& b) {
                        EXPECT_EQ(a.values, b.values);
                        EXPECT_EQ(a.outside, b.outside);

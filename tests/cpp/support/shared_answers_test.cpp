@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hosts are called once for each place over all processes, and an error names a host with other answers.
-#include "surface/sample/shared_answers.h"
+#include "support/ranks/shared_answers.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ std::vector<std::string> thrown_by(const std::function<void(int rank, const Vec2
       if (asked != nullptr) *asked += some.size();
       for (std::size_t k = 0; k < some.size(); ++k) misbehave(team.rank(), some[k]), say(some[k], out + 2 * k);
     };
-    const std::vector<double> all = shared_answers(team, 7, {"answers", 2, 1, ask}, uv, monitor);
+    const std::vector<double> all = shared_answers({&team, 1}, 7, {"answers", 2, 1, ask}, uv, monitor);
     ASSERT_EQ(all.size(), 2 * places);
     for (std::size_t k = 0; k < places; ++k) {
       double expected[2];
@@ -61,7 +61,7 @@ TEST(SharedAnswers, AHostThatDiffersIsNamedWithTheFace) {
       for (std::size_t k = 0; k < some.size(); ++k) out[k] = some[k].x() + (team.rank() == 2 ? 1e-15 : 0);
     };
     try {
-      (void)shared_answers(team, 7, {"answers", 1, 1, ask}, uv, monitor);
+      (void)shared_answers({&team, 1}, 7, {"answers", 1, 1, ask}, uv, monitor);
       ADD_FAILURE() << "nothing was thrown";
     } catch (const InvalidModel& error) {
       EXPECT_EQ(std::string(error.what()).find("face 7 differs on rank 2 from rank 0"), 0U) << error.what();
@@ -87,7 +87,7 @@ TEST(SharedAnswers, AnErrorOfAllHostsEqualsTheErrorOfOne) {
         if (p.x() >= 1) throw CallbackError(Where{.face = 7, .uv = p}, "surf0 gave NaN");
     };
     try {
-      (void)shared_answers(team, 7, {"answers", 1, 1, ask}, uv, monitor);
+      (void)shared_answers({&team, 1}, 7, {"answers", 1, 1, ask}, uv, monitor);
       ADD_FAILURE() << "nothing was thrown";
     } catch (const CallbackError& error) {
       EXPECT_EQ(error.where().face, 7);
@@ -110,10 +110,10 @@ TEST(SharedAnswers, AStopAndALackOfMemoryReachAll) {
 }
 
 TEST(SharedAnswers, FewPlacesAreEvaluatedByEachProcess) {
-  EXPECT_FALSE(is_shared(nullptr, places));
+  EXPECT_FALSE(is_shared({}, places));
   in_processes(2, [](Team& team) {
-    EXPECT_TRUE(is_shared(&team, places));
-    EXPECT_FALSE(is_shared(&team, 100));
+    EXPECT_TRUE(is_shared({&team, 1}, places));
+    EXPECT_FALSE(is_shared({&team, 1}, 100));
   });
 }
 

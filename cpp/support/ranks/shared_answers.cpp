@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/sample/shared_answers.h"
+#include "support/ranks/shared_answers.h"
 
 #include <algorithm>
 #include <exception>
 #include <string>
 
 #include "support/error.h"
-#include "support/ranks/crew.h"
 #include "support/ranks/packet.h"
 #include "support/work_sizes.h"
-#include "surface/sample/thresholds.h"
 
 namespace carreau {
 
 namespace {
-
-using namespace thresholds::sample;
 
 /// The answers of this process's host at some places, or its error.
 struct OwnAnswers {
@@ -61,15 +57,20 @@ void refuse_other_face(int ref, std::size_t rank) {
                      " from rank 0: its callbacks or prescribed sizes differ; all ranks must mesh the same model");
 }
 
-bool is_shared(const Team* team, std::size_t n) noexcept { return team != nullptr && n >= least_shared; }
+bool is_shared(const Executor& executor, std::size_t n) noexcept { return !executor.is_alone() && n >= work_sizes::fewest_shared_places; }
 
-std::vector<double> shared_answers(Team& team, int ref, const HostQuestion& question, std::span<const Vec2> uv,
+std::vector<double> shared_answers(const Executor& executor, int ref, const HostQuestion& question, std::span<const Vec2> uv,
                                    Monitor& monitor) {
-  require_same_answers(team, ref, question, uv, monitor);
+  if (!is_shared(executor, uv.size())) {
+    std::vector<double> answers(question.width * uv.size());
+    question.ask(uv, answers.data(), monitor);
+    return answers;
+  }
+  require_same_answers(*executor.team, ref, question, uv, monitor);
   const auto ask = [&](std::size_t first, std::size_t last, double* out, Monitor& of_piece) {
     question.ask(uv.subspan(first, last - first), out, of_piece);
   };
-  return shared_rows({&team, question.threads}, question.step,
+  return shared_rows(executor.with(question.threads), question.step,
                      {.count = uv.size(),
                       .width = question.width,
                       .at_once = work_sizes::piece_of(uv.size()),

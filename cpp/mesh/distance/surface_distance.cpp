@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/surface_distance.h"
+#include "mesh/distance/surface_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "mesh/distance/heights.h"
-#include "mesh/triangle_distance.h"
+#include "mesh/distance/triangle_distance.h"
 #include "mesh/triangle_search.h"
 #include "support/infinity.h"
 #include "support/stepped_tasks.h"
@@ -43,8 +43,8 @@ std::vector<std::int32_t> corners_of(std::span<const std::array<std::int32_t, 3>
 
 double largest_distance(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                         std::span<const Vec3> to_vertices, std::span<const std::array<std::int32_t, 3>> to_triangles,
-                        Monitor& monitor, const Crew& crew) {
-  const TriangleSearch search(to_vertices, to_triangles, &monitor, crew.threads);
+                        Monitor& monitor, const Executor& executor) {
+  const TriangleSearch search(to_vertices, to_triangles, &monitor, executor.threads);
   if (search.empty()) return 0;
   const std::vector<std::int32_t> corners = corners_of(triangles, vertices.size());
   const std::vector<Edge> edges = edges_of(triangles);
@@ -70,7 +70,7 @@ double largest_distance(std::span<const Vec3> vertices, std::span<const std::arr
   };
   double most = 0;
   for (const double of_piece :
-       shared_rows(crew, "distances to triangles", {.count = (points + at_once - 1) / at_once}, look, monitor))
+       shared_rows(executor, "distances to triangles", {.count = (points + at_once - 1) / at_once}, look, monitor))
     most = std::max(most, of_piece);
   return most;
 }
@@ -122,9 +122,9 @@ struct Box {
 class DistanceBounder {
  public:
   DistanceBounder(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
-                  const Crew& crew, Monitor& monitor)
-      : from_(from), to_(to), search_(to.vertices, to.triangles, &monitor, crew.threads),
-        heights_(to.vertices, to.triangles), tolerance_(tolerance), crew_(crew), monitor_(monitor) {}
+                  const Executor& executor, Monitor& monitor)
+      : from_(from), to_(to), search_(to.vertices, to.triangles, &monitor, executor.threads),
+        heights_(to.vertices, to.triangles), tolerance_(tolerance), executor_(executor), monitor_(monitor) {}
 
   DistanceBounds run(std::vector<double>* of_triangles, std::vector<FarPoint>* farthest) {
     if (of_triangles != nullptr) of_triangles->assign(from_.triangles.size(), 0);
@@ -167,7 +167,7 @@ class DistanceBounder {
         out[0] = found[0], out[1] = found[1];
       }
     };
-    return shared_rows(crew_, "bounds of distances", {.count = n, .width = 2, .at_once = chunk}, fill, monitor_);
+    return shared_rows(executor_, "bounds of distances", {.count = n, .width = 2, .at_once = chunk}, fill, monitor_);
   }
 
   /// The corners with their nearest triangles, by number; an empty `place` is skipped.
@@ -336,7 +336,7 @@ class DistanceBounder {
   TriangleSearch search_;
   HeightSearch heights_;
   DistanceTolerance tolerance_;
-  Crew crew_;
+  Executor executor_;
   Monitor& monitor_;
   std::vector<Corner> at_vertex_, middle_;
   double length_ = 0, lower_ = 0, enough_ = 0;
@@ -345,9 +345,9 @@ class DistanceBounder {
 }  // namespace
 
 DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
-                              const Crew& crew, Monitor& monitor, std::vector<double>* of_triangles,
+                              const Executor& executor, Monitor& monitor, std::vector<double>* of_triangles,
                               std::vector<FarPoint>* farthest) {
-  return DistanceBounder(from, to, tolerance, crew, monitor).run(of_triangles, farthest);
+  return DistanceBounder(from, to, tolerance, executor, monitor).run(of_triangles, farthest);
 }
 
 }  // namespace carreau
