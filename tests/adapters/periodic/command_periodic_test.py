@@ -100,13 +100,6 @@ class Periodic(unittest.TestCase):
         made = self.check(self.mesh("inclusions.step", *AXES, size="0.05"), 3)
         self.assertEqual(made.euler_of_skin(), 80)
 
-    def test_the_mesh_does_not_depend_on_threads(self):
-        files = []
-        for threads in ("1", "3"):
-            with open(self.mesh("fcc.step", *AXES, "--threads", threads), "rb") as file:
-                files.append(file.read())
-        self.assertEqual(files[0], files[1])
-
     def test_anisotropic_sizes(self):
         made = Mesh(self.mesh("fcc.step", *AXES, "--anisotropic", "--angle", "10"))
         self.assertEqual(len(made.faces()), 3)
