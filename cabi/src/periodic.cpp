@@ -7,6 +7,7 @@
 #include "carreau.h"
 #include "guard.h"
 #include "mesh_content.h"
+#include "support/short_number.h"
 
 using carreau::InvalidArgument;
 using carreau::Isometry;
@@ -60,7 +61,8 @@ carreau_status carreau_model_add_periodicity(carreau_session* session, const int
     }
     if (transform != nullptr) given.map = isometry_of(transform);
     if (given.map && !(given.map->distortion() <= carreau::isometry_tolerance))
-      throw InvalidArgument("the map of a periodicity changes lengths, or is not finite");
+      throw InvalidArgument("the map of a periodicity changes lengths, or is not finite: R R^T differs from the identity by " +
+                            carreau::short_number(given.map->distortion()));
     session->edited_model().periodicities.push_back(std::move(given));
   });
 }

@@ -15,6 +15,7 @@
 #include "model/traces.h"
 #include "periodic/closest.h"
 #include "periodic/find_map.h"
+#include "periodic/invalid_periodicity.h"
 #include "periodic/thresholds.h"
 #include "predicates/polygon_locator.h"
 #include "support/error.h"
@@ -80,18 +81,20 @@ class Matcher {
       if (ref(f) == reference && faces_[f].usable) return f;
     const auto is_it = [reference](const Face& face) { return face.ref == reference && face.discrete; };
     if (std::any_of(model_.model.faces.begin(), model_.model.faces.end(), is_it))
-      throw InvalidModel(Where{.face = reference}, "the face is given by triangles, and only faces with curves can be periodic");
-    throw InvalidModel(Where{.face = reference}, "the face is periodic, and the model has no such face with curves");
+      throw InvalidPeriodicity(Where{.face = reference}, "the face is given by triangles, and only faces with curves can be periodic");
+    for (const Face& face : model_.model.faces)
+      if (face.ref == reference && !face.left_out.empty()) throw InvalidPeriodicity(Where{.face = reference}, "the face is periodic, and it failed: " + face.left_out);
+    throw InvalidPeriodicity(Where{.face = reference}, "the face is periodic, and the model has no such face with curves");
   }
 
   void add(const Periodicity& given) {
     if (given.slaves.size() != given.masters.size())
-      throw InvalidModel("a periodicity has " + std::to_string(given.slaves.size()) + " slave faces and " +
+      throw InvalidPeriodicity("a periodicity has " + std::to_string(given.slaves.size()) + " slave faces and " +
                          std::to_string(given.masters.size()) + " master faces: they must be as many");
     if (given.map && !(given.map->distortion() <= isometry_tolerance))
-      throw InvalidModel("the map of a periodicity changes lengths: R R^T differs from the identity by " +
+      throw InvalidPeriodicity("the map of a periodicity changes lengths: R R^T differs from the identity by " +
                          short_number(given.map->distortion()));
-    if (given.map && !is_finite(given.map->shift)) throw InvalidModel("the map of a periodicity is not finite");
+    if (given.map && !is_finite(given.map->shift)) throw InvalidPeriodicity("the map of a periodicity is not finite");
     if (norm(given.direction) > 0)
       add_translation(given.direction);
     else if (given.slaves.empty())
@@ -113,7 +116,7 @@ class Matcher {
       }
       const Isometry map = given.map ? *given.map : map_between(masters[i], slaves[i]);
       std::optional<FacePair> pair = pair_of(masters[i], slaves[i], map);
-      if (!pair) throw InvalidModel(Where{.face = ref(slaves[i])}, why_not(masters[i], slaves[i], map));
+      if (!pair) throw InvalidPeriodicity(Where{.face = ref(slaves[i])}, why_not(masters[i], slaves[i], map));
       pairs_.push_back(std::move(*pair));
     }
   }
@@ -121,7 +124,7 @@ class Matcher {
   // The curves of a face that is periodic with itself, like a tube whose borders meet or an annulus that turns.
   void add_itself(int face, const Periodicity& given) {
     const Where where{.face = ref(face)};
-    if (!given.map) throw InvalidModel(where, "the face is periodic with itself: its map must be given");
+    if (!given.map) throw InvalidPeriodicity(where, "the face is periodic with itself: its map must be given");
     FacePair pair{-1, -1, *given.map};
     for (const int from : faces_[face].curves)
       for (const int to : faces_[face].curves)
@@ -129,7 +132,7 @@ class Matcher {
           pair.curves.emplace(from, *image);
           break;
         }
-    if (pair.curves.empty()) throw InvalidModel(where, "the face is periodic with itself, and the map carries none of its curves onto another one or along itself");
+    if (pair.curves.empty()) throw InvalidPeriodicity(where, "the face is periodic with itself, and the map carries none of its curves onto another one or along itself");
     if (!turned_curves(face, *given.map).empty()) note_itself(face);
     pairs_.push_back(std::move(pair));
   }
@@ -185,7 +188,7 @@ class Matcher {
     if (const std::optional<Isometry> map = find_map(from, to, gap_, accepted)) return *map;
     Isometry translation;
     translation.shift = 0.5 * (faces_[slave].low + faces_[slave].high - faces_[master].low - faces_[master].high);
-    throw InvalidModel(Where{.face = ref(slave)}, "no map carries face " + std::to_string(ref(master)) +
+    throw InvalidPeriodicity(Where{.face = ref(slave)}, "no map carries face " + std::to_string(ref(master)) +
                                                       " onto the face; by the translation between their middles " +
                                                       why_not(master, slave, translation));
   }
@@ -194,8 +197,8 @@ class Matcher {
 
   void add_found(const Periodicity& given) {
     if (!given.map)
-      throw InvalidModel("a periodicity needs faces, a map or a direction: it has none of them");
-    if (add_pairs(*given.map) == 0) throw InvalidModel("the map of a periodicity carries no face onto another one; " + nearest_miss(*given.map));
+      throw InvalidPeriodicity("a periodicity needs faces, a map or a direction: it has none of them");
+    if (add_pairs(*given.map) == 0) throw InvalidPeriodicity("the map of a periodicity carries no face onto another one; " + nearest_miss(*given.map));
   }
 
   void add_translation(const Vec3& direction) {
@@ -214,7 +217,7 @@ class Matcher {
     for (int i = 0; i < 3; ++i)
       if (along[i] == 0) map.shift[i] = 0;
     if (add_pairs(map) > 0) return;
-    throw InvalidModel("the model is not periodic along (" + format_number(direction.x()) + ", " + format_number(direction.y()) + ", " +
+    throw InvalidPeriodicity("the model is not periodic along (" + format_number(direction.x()) + ", " + format_number(direction.y()) + ", " +
                        format_number(direction.z()) + "): the translation by its extent, " + format_point(map.shift) +
                        ", carries no face onto another one; " + nearest_miss(map));
   }
@@ -311,8 +314,30 @@ class Matcher {
         if (miss < nearest) nearest = miss, master = m, slave = s;
       }
     if (master < 0 && has_discrete(model_.model)) return "faces given by triangles have no curves, and cannot be periodic";
-    if (master < 0) return "it has no two faces";
+    if (master < 0) return nearest_curves(map);
     return "nearest is face " + std::to_string(ref(slave)) + ": " + why_not(master, slave, map);
+  }
+
+  // Of a plane domain or of one sheet.
+  [[nodiscard]] std::string nearest_curves(const Isometry& map) const {
+    double nearest = infinity;
+    Vec3 where(0, 0, 0);
+    int master = -1, slave = -1;
+    for (int m = 0; m < std::ssize(shapes_); ++m)
+      for (int s = 0; s < std::ssize(shapes_); ++s) {
+        if (s == m || shapes_[m].degenerate || shapes_[s].degenerate) continue;
+        const std::vector<Vec3>& trace = model_.support(model_.curve(m).uses.front()).xyz;
+        const Vec3 first = map(trace.front());
+        if (norm(first - first.cwiseMax(shapes_[s].low).cwiseMin(shapes_[s].high)) >= nearest) continue;
+        double worst = 0;
+        Vec3 at(0, 0, 0);
+        for (const Vec3& p : trace)
+          if (const double apart = nearest_on_trace(model_.support(model_.curve(s).uses.front()).xyz, map(p)).distance; apart > worst) worst = apart, at = map(p);
+        if (worst < nearest) nearest = worst, where = at, master = m, slave = s;
+      }
+    if (master < 0) return "it has no two faces";
+    return "nearest is curve " + std::to_string(model_.curve(slave).ref) + ": the image of curve " + std::to_string(model_.curve(master).ref) + " is " +
+           short_number(nearest) + " away from it at " + format_point(where);
   }
 
   // ---- one pair ----
@@ -351,7 +376,10 @@ class Matcher {
       const Vec2 start = model_.cad.curve(ref(pair.slave), to->curve + 1, want_position, parameter_at(model_, *to, r)).c;
       ClosestPoint point{start, {}, 0};
       find_closest(model_.cad, ref(pair.slave), {&target, 1}, {&point, 1});
-      return point.distance <= gap_ && is_inside(pair.slave, point.uv);
+      const bool is_in = is_inside(pair.slave, point.uv);
+      if (point.distance <= gap_ && is_in) return true;
+      beside_[{pair.master, pair.slave}] = "the place " + format_point(target) + " beside it is " + (is_in ? short_number(point.distance) + " away from the face" : "outside the face");
+      return false;
     }
     return true;
   }
@@ -433,7 +461,8 @@ class Matcher {
       return names + " do not match: their boundaries are one, but a corner at " + format_point(at) + " has no partner within " +
              short_number(corner);
     if (faces_[master].curves.size() == faces_[slave].curves.size())
-      return names + " do not match: they have one boundary, and lie on different sides of it or curve differently";
+      return names + " do not match: they have one boundary, and lie on different sides of it or curve differently" +
+             (beside_.contains({master, slave}) ? ": " + beside_.at({master, slave}) : "");
     return names + " do not match: they have " + std::to_string(faces_[master].curves.size()) + " and " +
            std::to_string(faces_[slave].curves.size()) + " curves, which differ by up to " + short_number(worst);
   }
@@ -444,6 +473,7 @@ class Matcher {
   std::vector<FaceShape> faces_;
   std::vector<FacePair> pairs_;
   std::map<int, PolygonLocator> polygons_;  // of boundaries, by face
+  std::map<std::pair<int, int>, std::string> beside_;  // by master and slave with one boundary: where they differ
   std::vector<std::string> remarks_;
 };
 

@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "model/format_point.h"
+#include "periodic/invalid_periodicity.h"
 #include "periodic/thresholds.h"
 #include "support/error.h"
 #include "support/format.h"
@@ -132,18 +134,17 @@ class Classes {
   }
 
   void require_same(const FacePair& known, const FacePair& other, const std::vector<int>& parent, int by) const {
-    double worst = 0;
-    for (const auto& [curve, image] : known.curves)
-      for (const double r : {0.2, 0.7}) {
-        const Vec3 p = support_point(model_, curve, r);
-        worst = std::max(worst, norm(known.map(p) - other.map(p)));
-      }
+    Miss worst;
+    for (const auto& [curve, image] : known.curves) {
+      const Miss miss = miss_on(curve, known.map, other.map);
+      if (miss.distance > worst.distance) worst = miss;
+    }
     const std::vector<CurveImage> a = images_at(known.curves), b = images_at(other.curves);
     const bool same = std::equal(a.begin(), a.end(), b.begin(), b.end(), same_way);
-    if (same && worst <= gaps_of_chain * result_.gap) return;
-    throw InvalidModel(Where{.face = ref(known.slave)},
+    if (same && worst.distance <= gaps_of_chain * result_.gap) return;
+    throw InvalidPeriodicity(Where{.face = ref(known.slave)},
                        "two chains of periodicities carry face " + std::to_string(ref(known.master)) + " onto the face, " +
-                           short_number(worst) + " apart: by faces " + path_of(parent, known.slave) + " and by faces " +
+                           worst.text() + ": by faces " + path_of(parent, known.slave) + " and by faces " +
                            path_of(parent, by) + ", " + std::to_string(ref(known.slave)));
   }
 
@@ -192,11 +193,17 @@ class Classes {
     return path;
   }
 
-  [[nodiscard]] double apart_on(int curve, const Isometry& a, const Isometry& b) const {
-    double worst = 0;
+  struct Miss {
+    double distance = 0;
+    Vec3 where{0, 0, 0};
+    [[nodiscard]] std::string text() const { return short_number(distance) + " apart at " + format_point(where); }
+  };
+  // The largest distance between the images of a curve under two maps.
+  [[nodiscard]] Miss miss_on(int curve, const Isometry& a, const Isometry& b) const {
+    Miss worst;
     for (const double r : {0.2, 0.7}) {
-      const Vec3 p = support_point(model_, curve, r);
-      worst = std::max(worst, norm(a(p) - b(p)));
+      const Vec3 p = support_point(model_, curve, r), image = a(p);
+      if (const double apart = norm(image - b(p)); apart > worst.distance) worst = {apart, image};
     }
     return worst;
   }
@@ -222,9 +229,9 @@ class Classes {
     const int root = all.members.front().image.curve;
     int order = 1;
     Isometry power = map;
-    while (order <= max_order && apart_on(root, power, {}) > shares::negligible * result_.gap) power = map.after(power), ++order;
+    while (order <= max_order && miss_on(root, power, {}).distance > shares::negligible * result_.gap) power = map.after(power), ++order;
     if (order > max_order)
-      throw InvalidModel(Where{.curve = model_.curve(root).ref},
+      throw InvalidPeriodicity(Where{.curve = model_.curve(root).ref},
                          "a periodicity carries the closed curve onto itself by " + format_number(shift - std::floor(shift)) +
                              " of its length, and no whole number of edges can be repeated so");
     const int n = std::lcm(cycle.n, order);
@@ -252,18 +259,18 @@ class Classes {
       if (!all.turn) all.turn = known.map.inverse().after(reached.map);
       return;
     }
-    const double worst = apart_on(root, known.map, reached.map);
+    const Miss worst = miss_on(root, known.map, reached.map);
     if (closed && !same_way(known.image, reached.image)) {
       add_to_cycle(all, composed(reached.image, inverse(root, known.image)), known.map.inverse().after(reached.map));
       return;
     }
-    if (same_way(known.image, reached.image) && worst <= gaps_of_chain * result_.gap) {
+    if (same_way(known.image, reached.image) && worst.distance <= gaps_of_chain * result_.gap) {
       if (const Isometry between = known.map.inverse().after(reached.map); between.reflects()) all.mirrors.push_back(between);
       return;
     }
-    throw InvalidModel(Where{.curve = model_.curve(known.image.curve).ref},
+    throw InvalidPeriodicity(Where{.curve = model_.curve(known.image.curve).ref},
                        "two chains of periodicities carry curve " + std::to_string(shape.ref) + " onto the curve, " +
-                           short_number(worst) + " apart; one is that by curves " + curve_path(parent, known.image.curve));
+                           worst.text() + "; one chain is by curves " + curve_path(parent, known.image.curve));
   }
 
   // ---- corners ----

@@ -9,9 +9,12 @@
 
 #include "curve/unit_discretisation.h"
 #include "periodic/closest.h"
+#include "model/format_point.h"
+#include "periodic/invalid_periodicity.h"
 #include "periodic/thresholds.h"
 #include "support/error.h"
 #include "support/rounding_of.h"
+#include "support/short_number.h"
 
 namespace carreau {
 
@@ -281,13 +284,16 @@ int prescribed_member(const CurveClass& all, const CurveModel& model, const std:
     const bool closed = is_closed(model, a.image.curve);
     const DiscreteCurve &p = curves[a.image.curve], &q = curves[b.image.curve];
     const CurveImage between = composed(inverse(all.members.front().image.curve, a.image), b.image);
-    bool same = p.segments() == q.segments();
+    const auto reject = [&](const std::string& how) {
+      throw InvalidPeriodicity(Where{.curve = model.curve(b.image.curve).ref},
+                               "edges are prescribed on the curve and on curve " + std::to_string(model.curve(a.image.curve).ref) +
+                                   ", which are periodic: they differ, " + how);
+    };
+    if (p.segments() != q.segments()) reject("there are " + std::to_string(q.segments()) + " and " + std::to_string(p.segments()));
     const auto order = in_order(p, between, closed);
-    for (std::size_t k = 0; same && k < order.size(); ++k) same = std::abs(order[k].first - q.r[k]) < 1e-6;
-    if (!same)
-      throw InvalidModel(Where{.curve = model.curve(b.image.curve).ref},
-                         "edges are prescribed on the curve and on curve " + std::to_string(model.curve(a.image.curve).ref) +
-                             ", which are periodic: they differ");
+    for (std::size_t k = 0; k < order.size(); ++k)
+      if (const double apart = std::abs(order[k].first - q.r[k]); !(apart < rounding_of::sizes))
+        reject("by " + short_number(apart * model.length(b.image.curve)) + " at " + format_point(q.xyz[k]));
   }
   return found;
 }
@@ -300,8 +306,8 @@ void require_repeated(const CurveClass& all, const DiscreteCurve& d, const Curve
       const double image = of_member(member, true, r);
       const auto near = [image](double known) { return std::abs(known - image) <= rounding_of::sizes; };
       if (std::none_of(d.r.begin(), d.r.end(), near))
-        throw InvalidModel(Where{.curve = model.curve(d.curve).ref},
-                           "the edges that are prescribed on the curve do not repeat under the map that carries it onto itself");
+        throw InvalidPeriodicity(Where{.curve = model.curve(d.curve).ref},
+                           "the edges that are prescribed on the curve do not repeat under the map that carries it onto itself, first at " + format_point(support_point(model, d.curve, at)));
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "cad/part_cad.h"
 #include "model/topology.h"
+#include "periodic/invalid_periodicity.h"
 #include "session/gluing.h"
 #include "session/options.h"
 
@@ -26,7 +27,7 @@ bool leave_out(Model& model, const Where& where, const std::string& sentence) {
 bool leave_out(Model& model, const Error& error) {
   const bool of_a_face =
       dynamic_cast<const CallbackError*>(&error) != nullptr || dynamic_cast<const InvalidModel*>(&error) != nullptr;
-  return of_a_face && leave_out(model, error.where(), error.what());
+  return of_a_face && dynamic_cast<const InvalidPeriodicity*>(&error) == nullptr && leave_out(model, error.where(), error.what());
 }
 
 // Curves share rules: without one face the other faces may break none, or a different one.

@@ -18,6 +18,7 @@
 #include "model/format_point.h"
 #include "model/traces.h"
 #include "periodic/find_map.h"
+#include "periodic/invalid_periodicity.h"
 #include "periodic/thresholds.h"
 #include "support/error.h"
 #include "support/format.h"
@@ -90,7 +91,7 @@ class Finder {
   [[nodiscard]] int index_of(int reference) const {
     for (int f = 0; f < std::ssize(mesh_.faces); ++f)
       if (ref(f) == reference && !mesh_.faces[f].triangles.empty()) return f;
-    throw InvalidModel(Where{.face = reference}, "the face is periodic, and the model has no such face with triangles");
+    throw InvalidPeriodicity(Where{.face = reference}, "the face is periodic, and the model has no such face with triangles");
   }
 
   void add(const Periodicity& given) {
@@ -98,11 +99,11 @@ class Finder {
     if (given.slaves.empty()) return add_found(*given.map);
     for (std::size_t i = 0; i < given.slaves.size(); ++i) {
       const int slave = index_of(given.slaves[i]), master = index_of(given.masters[i]);
-      if (slave == master) throw InvalidModel(Where{.face = given.slaves[i]}, "the face is periodic with itself: divide it into a master and a slave");
+      if (slave == master) throw InvalidPeriodicity(Where{.face = given.slaves[i]}, "the face is periodic with itself: divide it into a master and a slave");
       std::optional<Isometry> map = given.map;
       if (!map) map = find_map(ends_of(master), ends_of(slave), result_.gap, [&](const Isometry& m) { return lines_between(master, slave, m).has_value(); });
-      if (!map) throw InvalidModel(Where{.face = ref(slave)}, "no map carries face " + std::to_string(ref(master)) + " onto the face");
-      if (!add_face(master, slave, *map)) throw InvalidModel(Where{.face = ref(slave)}, why_not(master, slave, *map));
+      if (!map) throw InvalidPeriodicity(Where{.face = ref(slave)}, "no map carries face " + std::to_string(ref(master)) + " onto the face");
+      if (!add_face(master, slave, *map)) throw InvalidPeriodicity(Where{.face = ref(slave)}, why_not(master, slave, *map));
     }
   }
 
@@ -210,7 +211,7 @@ class Finder {
     const bool borders = found == 0;
     for (int c = 0; c < std::ssize(mesh_.curves) && borders; ++c)
       if (mesh_.curves[c].uses.size() == 1) found += add_border(c, map) ? 1 : 0;
-    if (found == 0) throw InvalidModel("the map of a periodicity carries no face and no border of the triangles onto another one; " + nearest_miss(map));
+    if (found == 0) throw InvalidPeriodicity("the map of a periodicity carries no face and no border of the triangles onto another one; " + nearest_miss(map));
   }
 
   bool add_border(int from, const Isometry& map) {
@@ -331,7 +332,7 @@ class Finder {
 
   void require_way(int from, const TrianglePair& step) const {
     if (runs_alike(image_of(from, step.map), trace_of(step.slave))) return;
-    throw InvalidModel("two chains of periodicities carry a line of the triangles onto itself, reversed or shifted, near " +
+    throw InvalidPeriodicity("two chains of periodicities carry a line of the triangles onto itself, reversed or shifted, near " +
                        format_point(trace_of(step.slave).front()) + ": such a line cannot be divided");
   }
 
@@ -343,7 +344,7 @@ class Finder {
       const auto apart = [&](std::int32_t v) { return norm(mesh_.vertices[v] - image.front()); };
       const auto first = std::ranges::min_element(chain, {}, apart);
       if (apart(*first) > result_.gap)
-        throw InvalidModel("a closed line of the triangles has no vertex at the image " + format_point(image.front()) +
+        throw InvalidPeriodicity("a closed line of the triangles has no vertex at the image " + format_point(image.front()) +
                            " of the first vertex of its periodic partner: the nearest is " + short_number(apart(*first)) + " away");
       std::rotate(chain.begin(), first, chain.end());
       chain.push_back(chain.front());

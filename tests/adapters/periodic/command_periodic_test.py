@@ -100,13 +100,6 @@ class Periodic(unittest.TestCase):
         made = self.check(self.mesh("inclusions.step", *AXES, size="0.05"), 3)
         self.assertEqual(made.euler_of_skin(), 80)
 
-    def test_the_mesh_does_not_depend_on_threads(self):
-        files = []
-        for threads in ("1", "3"):
-            with open(self.mesh("fcc.step", *AXES, "--threads", threads), "rb") as file:
-                files.append(file.read())
-        self.assertEqual(files[0], files[1])
-
     def test_anisotropic_sizes(self):
         made = Mesh(self.mesh("fcc.step", *AXES, "--anisotropic", "--angle", "10"))
         self.assertEqual(len(made.faces()), 3)
@@ -124,6 +117,27 @@ class Periodic(unittest.TestCase):
             self.assertIn("--periodic", done.stderr)
         done = run("mesh", os.path.join(CELLS, "cube.step"), "-o", path, "--periodic", "1=1")
         self.assertIn("periodic with itself", done.stderr)
+        # Curves of a sheet and of a plane domain, with the distance and the place; faces of one boundary.
+        done = run("mesh", "z = x*x", "--domain", "box:0,0,1,1", "-o", path, "--periodic", "x")
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"nearest is curve \d: the image of curve \d is 1 away from it at \(1, ")
+        patches = os.path.join(self.folder, "two.bpt")
+        with open(patches, "w", encoding="utf-8") as file:
+            print(2, *("3 3\n" + "\n".join(f"{i / 3} {j / 3} {z + z * .3 * (i in (1, 2) and j in (1, 2))}" for i in range(4) for j in range(4)) for z in (0, 1)), sep="\n", file=file)
+        done = run("mesh", patches, "-o", path, "--size", ".1", "--periodic", "2=1")
+        self.assertEqual(done.returncode, 2)
+        self.assertNotIn("again without", done.stderr)
+        self.assertRegex(done.stderr, r"face 2: .* the image of face 1 and face 2 do not match: .* beside it is 0\.0\d+ away from the face")
+
+    def test_the_partner_of_a_face_that_fails_is_reported(self):
+        """A bump that the border does not show."""
+        patches, path = os.path.join(self.folder, "two.bpt"), os.path.join(self.folder, "none.msh")
+        with open(patches, "w", encoding="utf-8") as file:
+            print(2, *("3 3\n" + "\n".join(f"{i / 3} {j / 3} {z + z * .003 * (i in (1, 2) and j in (1, 2))}" for i in range(4) for j in range(4)) for z in (0, 1)), sep="\n", file=file)
+        done = run("mesh", patches, "-o", path, "--size", ".1", "--periodic", "2=1")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("face 1: its periodic partner, face 2, failed: face 2: the image of the mesh of face 1 is 0.001", done.stderr)
+        self.assertIn("away from the surface at (", done.stderr)
 
     def test_prescribed_edges_of_both_sides(self):
         """Edges of one side are the edges of the other side; two that differ are an error."""
