@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "association/harmonic_map.h"
 #include "mesh/quality.h"
 #include "support/error.h"
 #include "support/incidence.h"
@@ -52,7 +53,9 @@ class DividedQuads {
   [[nodiscard]] const std::vector<Vec2>& uv() const noexcept { return patch_.uv; }
   [[nodiscard]] const std::vector<MixedCell>& cells() const noexcept { return patch_.cells; }
   [[nodiscard]] std::size_t vertices() const noexcept { return patch_.uv.size(); }
-  [[nodiscard]] bool is_fixed(std::size_t v) const noexcept { return patch_.fixed[v] != 0; }
+  [[nodiscard]] bool is_fixed(std::size_t v) const noexcept { return patch_.fixed[v] != 0 || in_mesh_[v] < first_free_; }
+  /// Lets vertices move whose number in the mesh is no less than `first`.
+  void release(std::int32_t first) noexcept { first_free_ = first; }
 
   [[nodiscard]] static Frame about(const MixedCell& /*cell*/) noexcept { return {}; }
   [[nodiscard]] Frame about(std::int32_t v) {
@@ -127,16 +130,35 @@ class DividedQuads {
   std::span<const double> kept_;
   QuadPatch patch_;
   std::size_t quads_ = 0;
+  std::int32_t first_free_ = 0;
   std::optional<Incidence> around_;
   bool is_outside_ = false;
 };
 
+// Moves vertices in (u, v) until the four corners of each quadrilateral are counterclockwise.
+void untangle_cells(DividedQuads& quads) {
+  std::vector<std::array<std::int32_t, 3>> corners;
+  std::vector<char> fixed(quads.vertices());
+  for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] = quads.is_fixed(v) ? 1 : 0;
+  for (const MixedCell& c : quads.cells())
+    for (int k = 0, n = corners_of(c); k < (n == 3 ? 1 : n); ++k) corners.push_back({c[(k + n - 1) % n], c[k], c[(k + 1) % n]});
+  if (std::none_of(corners.begin(), corners.end(), [&](const auto& t) { return orientation(quads.uv()[t[0]], quads.uv()[t[1]], quads.uv()[t[2]]) <= 0; })) return;
+  std::vector<Vec2> uv = quads.uv();
+  (void)untangle(corners, fixed, uv);
+  for (std::size_t v = 0; v < uv.size(); ++v)
+    if (const Vec2 way = uv[v] - quads.uv()[v]; way != Vec2{0, 0}) quads.try_at(v, quads.place(v), way);
+}
+
 }  // namespace
 
 void restore_quads(FaceMesh& face, std::vector<Vec3>& vertices, Cad& cad, bool isotropic, std::vector<char> fixed, std::span<const double> kept,
-                   Monitor& monitor) {
+                   std::int32_t first_new, Monitor& monitor) {
   DividedQuads quads(face, vertices, cad, isotropic, std::move(fixed), kept);
-  WorstQuads<DividedQuads>(quads, 0, monitor).run();
+  for (const bool old : {false, true}) {  // vertices of the mesh before move only where new ones do not suffice
+    quads.release(old ? 0 : first_new);
+    untangle_cells(quads);
+    WorstQuads<DividedQuads>(quads, 0, monitor).run();
+  }
   if (quads.uv() == face.uv) return;
   face.uv = quads.uv();
   std::vector<Quad> four;
@@ -145,12 +167,13 @@ void restore_quads(FaceMesh& face, std::vector<Vec3>& vertices, Cad& cad, bool i
   set_cells(face, four, three, vertices);  // other diagonals may be better
 }
 
-std::size_t count_turned(const FaceMesh& face, const std::vector<Vec3>& vertices) {
-  std::size_t turned = 0;
+TurnedElements find_turned(const FaceMesh& face, const std::vector<Vec3>& vertices) {
+  TurnedElements turned;
   const QuadPatch patch{face.uv, {}, cells_of_face(face)};
   for (const MixedCell& c : patch.cells) {
     const auto at = [&](int k) -> const Vec3& { return vertices[face.vertex[c[k]]]; };
-    if (!is_convex(patch, c) || (corners_of(c) == 4 && is_turned_over({at(0), at(1), at(2), at(3)}))) ++turned;
+    if (!is_convex(patch, c) || (corners_of(c) == 4 && is_turned_over({at(0), at(1), at(2), at(3)})))
+      if (++turned.count == 1) turned.first = face.vertex[c[0]];
   }
   return turned;
 }

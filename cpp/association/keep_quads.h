@@ -13,12 +13,17 @@
 namespace carreau::refining {
 
 /// Moves vertices of elements whose shape is below `kept`, worst first, on the surface, where the worst element around is best: the search
-/// that ends the meshing of quadrilaterals (WorstQuads). `fixed`: by local vertex; `kept`: by triangle of the face. `isotropic`: shapes
+/// that ends the meshing of quadrilaterals (WorstQuads). Turned elements are untangled in (u, v) before. Vertices before
+/// `first_new` move only if the others do not suffice. `fixed`: by local vertex; `kept`: by triangle of the face. `isotropic`: shapes
 /// in space count; else only turned elements. Does not evaluate the host if no element is worse.
 void restore_quads(FaceMesh& face, std::vector<Vec3>& vertices, Cad& cad, bool isotropic, std::vector<char> fixed, std::span<const double> kept,
-                   Monitor& monitor);
+                   std::int32_t first_new, Monitor& monitor);
 
-/// The number of elements that are turned, in (u, v) or in space.
-std::size_t count_turned(const FaceMesh& face, const std::vector<Vec3>& vertices);
+/// Elements that are turned, in (u, v) or in space.
+struct TurnedElements {
+  std::size_t count = 0;
+  std::int32_t first = -1;  ///< a corner of the first one, in the mesh
+};
+TurnedElements find_turned(const FaceMesh& face, const std::vector<Vec3>& vertices);
 
 }  // namespace carreau::refining

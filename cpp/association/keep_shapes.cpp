@@ -10,9 +10,9 @@
 
 #include "association/divide_elements.h"
 #include "association/harmonic_map.h"
-#include "association/keep_quads.h"
 #include "association/thresholds.h"
 #include "mesh/editable_mesh.h"
+#include "mesh/shape_levels.h"
 #include "model/format_point.h"
 #include "support/error.h"
 #include "support/format.h"
@@ -97,8 +97,8 @@ void untangle_patch(Surroundings& around, int ref, Cad& cad) {
 
 }  // namespace
 
-ShapeKeeper::ShapeKeeper(SurfaceMesh& mesh, Cad& cad, bool isotropic, Monitor& monitor)
-    : mesh_(mesh), cad_(cad), isotropic_(isotropic), monitor_(monitor), fixed_(mesh.vertices.size(), 0) {
+ShapeKeeper::ShapeKeeper(SurfaceMesh& mesh, std::int32_t first_new, Cad& cad, bool isotropic, bool quadratic, Monitor& monitor)
+    : mesh_(mesh), first_new_(first_new), cad_(cad), isotropic_(isotropic), quadratic_(quadratic), monitor_(monitor), fixed_(mesh.vertices.size(), 0) {
   for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] = mesh.vertex_ref[v] != 0 ? 1 : 0;
   for (const CurveMesh& curve : mesh.curves) {
     for (const std::int32_t v : curve.vertices) fixed_[v] = 1;
@@ -152,8 +152,8 @@ void ShapeKeeper::restore(std::size_t f, std::span<const float> before) {
   if (isotropic_) repair(f, triangles_below(face, [&](std::size_t t) { return std::max(std::min<double>(before[t], kept_shape) - shape_loss, 0.0); }), true);
   if (face.quads == 0) return;
   std::vector<double> kept;
-  for (const float shape : before) kept.push_back(isotropic_ ? std::max(std::min<double>(shape, kept_shape) - shape_loss, 0.0) : 0);
-  restore_quads(mesh_.faces[f], mesh_.vertices, cad_, isotropic_, fixed_of(face), kept, monitor_);
+  for (const float shape : before) kept.push_back(isotropic_ && !quadratic_ ? std::max(std::min<double>(shape, shape_level::poor) - shape_loss, 0.0) : 0);
+  restore_quads(mesh_.faces[f], mesh_.vertices, cad_, isotropic_, fixed_of(face), kept, first_new_, monitor_);
 }
 
 std::vector<char> ShapeKeeper::fixed_of(const FaceMesh& face) const {
@@ -205,19 +205,30 @@ void ShapeKeeper::repair(std::size_t f, const std::vector<std::int32_t>& worse, 
 
 std::vector<WorstShape> worst_shapes(const SurfaceMesh& mesh) {
   std::vector<WorstShape> worst(mesh.faces.size());
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (const Triangle& t : mesh.faces[f].triangles)
-      if (const double shape = shape_of(mesh.faces[f], t, mesh.vertices); shape < worst[f].shape) worst[f] = {shape, mesh.faces[f].vertex[t[0]]};
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const FaceMesh& face = mesh.faces[f];
+    for (const Triangle& t : face.triangles)
+      if (const double shape = shape_of(face, t, mesh.vertices); shape < worst[f].shape) worst[f].shape = shape, worst[f].vertex = face.vertex[t[0]];
+    if (face.quads > 0 || worst[f].shape < 0) worst[f].turned = find_turned(face, mesh.vertices);
+  }
   return worst;
 }
 
-void report_losses(const SurfaceMesh& mesh, std::span<const WorstShape> before, const char* by, Monitor& monitor) {
+void report_losses(SurfaceMesh& mesh, std::span<const WorstShape> before, const char* by, Monitor& monitor) {
   const std::vector<WorstShape> after = worst_shapes(mesh);
   for (std::size_t f = 0; f < after.size(); ++f) {
-    const auto& [shape, vertex] = after[f];
-    if (shape >= reported_loss * std::min(before[f].shape, kept_shape)) continue;
-    const std::string text = std::string("the ") + by + (shape < 0 ? " has turned a triangle" : " has lowered the worst shape (Q2) from " + rounded(before[f].shape) + " to " + rounded(shape));
-    monitor.message(Level::warning, Where{.face = mesh.faces[f].shown_ref()}.prefix() + text + " at " + format_point(mesh.vertices[vertex]));
+    const auto& [shape, vertex, turned] = after[f];
+    FaceMesh& face = mesh.faces[f];
+    const std::string where = Where{.face = face.shown_ref()}.prefix();
+    if (turned.count > before[f].turned.count) {
+      const std::string why = where + "the " + by + " has turned " + std::to_string(turned.count) + (turned.count == 1 ? " element" : " elements") +
+                              ", the first one at " + format_point(mesh.vertices[turned.first]);
+      face.status = FaceStatus::mended, face.why += (face.why.empty() ? "" : "; ") + why;
+      monitor.message(Level::warning, why);
+    } else if (shape < reported_loss * std::min(before[f].shape, kept_shape)) {
+      monitor.message(Level::warning, where + "the " + by + " has lowered the worst shape (Q2) from " + rounded(before[f].shape) + " to " + rounded(shape) + " at " +
+                                          format_point(mesh.vertices[vertex]));
+    }
   }
 }
 

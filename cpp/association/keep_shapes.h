@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "association/keep_quads.h"
 #include "association/mesh_edges.h"
 #include "cad/cad.h"
 #include "support/monitor.h"
@@ -17,8 +18,9 @@ namespace carreau::refining {
 /// Vertices of curves stay.
 class ShapeKeeper {
  public:
-  /// `isotropic`: shapes in space count; else only turned triangles are repaired. Keeps references.
-  ShapeKeeper(SurfaceMesh& mesh, Cad& cad, bool isotropic, Monitor& monitor);
+  /// `first_new`: the first vertex of the division. `isotropic`: shapes in space count; else only turned triangles are repaired.
+  /// `quadratic`: only turned quadrilaterals are, since the nodes on edges decide. Keeps references.
+  ShapeKeeper(SurfaceMesh& mesh, std::int32_t first_new, Cad& cad, bool isotropic, bool quadratic, Monitor& monitor);
 
   /// `before`: as divide_elements() returns it. Does not evaluate the host if no shape is worse.
   void restore(std::size_t face, std::span<const float> before);
@@ -40,8 +42,9 @@ class ShapeKeeper {
   [[nodiscard]] bool is_curve_edge(std::int32_t v, std::int32_t w) const;
 
   SurfaceMesh& mesh_;
+  std::int32_t first_new_;
   Cad& cad_;
-  bool isotropic_;
+  bool isotropic_, quadratic_;
   Monitor& monitor_;
   std::vector<char> fixed_;        // by vertex: on a curve, or imposed
   std::vector<Key> curve_edges_;   // ascending
@@ -49,15 +52,17 @@ class ShapeKeeper {
   bool knows_chords_ = false;
 };
 
-/// The worst shape (Q2) of a face, -1 if a triangle is turned, and a corner of that triangle; 1 and -1 without triangles.
+/// The worst shape (Q2) of a face's triangles and halves of quadrilaterals, and a corner of that triangle; 1 and -1 without triangles.
 struct WorstShape {
   double shape = 1;
   std::int32_t vertex = -1;
+  TurnedElements turned;
 };
 /// Returns the worst shape of each face.
 std::vector<WorstShape> worst_shapes(const SurfaceMesh& mesh);
 
-/// Warns of each face whose worst shape has fallen much. `by`: a noun, the step that has changed the mesh.
-void report_losses(const SurfaceMesh& mesh, std::span<const WorstShape> before, const char* by, Monitor& monitor);
+/// Warns of each face whose worst shape has fallen much, and marks faces with more turned elements. `by`: a noun, the step that has changed
+/// the mesh.
+void report_losses(SurfaceMesh& mesh, std::span<const WorstShape> before, const char* by, Monitor& monitor);
 
 }  // namespace carreau::refining

@@ -65,7 +65,7 @@ void part_poles(FaceMesh& face, const Poles& poles, std::span<const CurveSide> s
     const auto is_curve = [&](std::int32_t v) {
       return std::any_of(sides.begin(), sides.end(), [&](const CurveSide& s) { return (s.a == a && s.b == v) || (s.b == a && s.a == v); });
     };
-    if (corners.size() < 2 || std::all_of(corners.begin(), corners.end(), is_between)) continue;
+    if (corners.empty() || std::all_of(corners.begin(), corners.end(), is_between)) continue;
     const auto joins_poles = [&](const PoleCorner& c) { return face.vertex[c.previous] == pole || face.vertex[c.next] == pole; };
     if (std::any_of(corners.begin(), corners.end(), joins_poles) || !order(corners)) continue;
     if (std::any_of(corners.begin(), corners.end() - 1, [&](const PoleCorner& c) { return is_curve(c.next); })) continue;

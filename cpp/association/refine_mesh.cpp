@@ -91,7 +91,7 @@ class Refiner {
     mesh_.mid_vertices.clear();
     for (CurveMesh& curve : mesh_.curves) curve.mid.clear();
     if (improves) swap_edges(first_new);
-    ShapeKeeper keeper(mesh_, model_.cad, !rules_.uses_metrics(), monitor_);
+    ShapeKeeper keeper(mesh_, first_new, model_.cad, !rules_.uses_metrics(), quadratic_, monitor_);
     for (std::size_t f = 0; f < shapes.size(); ++f)
       if (!shapes[f].empty() && !(periodic_ && periodic_->is_slave(f))) keeper.restore(f, shapes[f]);
     if (periodic_) periodic_->finish(added_);
@@ -188,7 +188,7 @@ class Refiner {
       return {};
     }
     const Poles poles(face);
-    if (!periodic_) part_poles(face, poles, curve_sides_of_face);
+    if (!periodic_ && !quadratic_) part_poles(face, poles, curve_sides_of_face);
     std::vector<Key> keys;
     keys.reserve(2 * face.triangles.size());
     for_sides(face, [&](std::int32_t a, std::int32_t b) { keys.push_back(ordered(a, b)); });

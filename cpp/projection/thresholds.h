@@ -32,10 +32,6 @@ inline constexpr std::size_t points_that_share = 32;
 inline constexpr std::size_t pieces_that_are_shared = 256;
 /// Number of searches whose places go to the host together. Their memory stays in the cache of a processor. [time only]
 inline constexpr std::size_t searches_together = 1024;
-/// Share of the parameters of a leaf. A place on its border that is nearer to the best place leads to it: a leaf differs from its
-/// interpolation by less. [Projector.TeapotAgreesWithEachFaceAlone]
-inline constexpr double beside_best = 0.25;
-
 // Newton's method (descent, restricted_step)
 /// Share of the length of a leaf. A full step of Newton's method that is shorter is the last one: the error of its Taylor expansion is
 /// then of third order, below rounding. [Projector.Sphere]

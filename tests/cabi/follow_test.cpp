@@ -412,6 +412,35 @@ TEST(Refine, HalvingKeepsShapesBesideCurves) {
   }
 }
 
+// Quadrilaterals beside holes whose coarse edges turn by up to a right angle: each level is convex, in space and in (u, v).
+TEST(Refine, HalvedQuadrilateralsStayConvex) {
+  for (const auto& [radius, size, element] :
+       {std::tuple(0.1, 0.9, "q1.0"), std::tuple(0.3, 0.9, "q1.0"), std::tuple(0.6, 0.9, "q1.1"), std::tuple(0.93, 0.5, "q1.0"), std::tuple(0.6, 0.6, "q2.0")}) {
+    const ShapeRun run(plate(radius), size, element);
+    run.generate();
+    const double before = run.quality().q2_mean;
+    for (int level = 1; level <= 3; ++level) {
+      ASSERT_EQ(carreau_mesh_halve(run.session, 1), CARREAU_OK) << run.error();
+      expect_sound(run);
+      EXPECT_GE(run.quality().q2_mean, before - 0.02) << radius << " " << element << " level " << level;
+    }
+  }
+}
+
+// At a pole an element has any place of the side that the pole flattens: it stays between the sides of the element.
+TEST(Refine, HalvedQuadrilateralsAtPolesStayConvex) {
+  for (const double size : {0.9, 0.5, 0.3}) {
+    for (const char* element : {"q1.0", "q1.1", "p1"}) {
+      const ShapeRun run(sphere(1, 1, 1), size, element);
+      run.generate();
+      for (int level = 1; level <= 2; ++level) {
+        ASSERT_EQ(carreau_mesh_halve(run.session, 1), CARREAU_OK) << run.error();
+        expect_sound(run, true);
+      }
+    }
+  }
+}
+
 TEST(Refine, NamesErrorsAndKeepsTheMesh) {
   const ShapeRun run(plate(0.4));
   EXPECT_EQ(carreau_mesh_halve(run.session, 1), CARREAU_ERR_SEQUENCE);
