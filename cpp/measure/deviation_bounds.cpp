@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "measure/base/spread_samples.h"
-#include "measure/base/thresholds.h"
 #include "measure/bounds/bounded_triangles.h"
 #include "measure/bounds/charted_places.h"
 #include "support/infinity.h"

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "cad/fundamental_forms.h"
-#include "measure/base/thresholds.h"
 #include "measure/composite_evaluation.h"
 #include "mesh/distance/surface_distance.h"
 #include "support/infinity.h"

@@ -5,7 +5,6 @@
 #include <map>
 #include <numbers>
 
-#include "measure/base/thresholds.h"
 #include "measure/mesh_evaluation.h"
 #include "metric/unit_edge.h"
 #include "support/format.h"
@@ -17,8 +16,6 @@
 namespace carreau {
 
 namespace {
-
-using namespace thresholds::measure;
 
 // Powers of ten from below the smallest positive value, at most six of them, to above the largest.
 std::vector<double> decades(std::span<const double> values) {

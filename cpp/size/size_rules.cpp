@@ -367,4 +367,51 @@ std::vector<double> SizeRules::kinks_on_curve(const CurveUse& use) const {
   return kinks;
 }
 
+/// The answer at the point; else the mean of the curves that end here, a closed curve counting once; else the mean of
+/// the corners of surfaces.
+double SizeRules::mean_of_answers_around(int point) {
+  if (parameters_.physical == PhysicalSizes::asked) {
+    if (const auto answer = ask_point(point)) return clamped_physical(*answer);
+    const std::vector<CurveEnd> ends = ends_at(point);
+    std::vector<double> answers;
+    int answered = -1;
+    for (const SizeRules::CurveEnd& end : ends) {
+      if (end.curve == answered) continue;
+      if (const auto answer = ask_curve(end.curve, end.t)) {
+        answers.push_back(*answer);
+        answered = end.curve;
+      }
+    }
+    if (answers.empty()) {
+      for (const Corner& corner : corners_of(ends))
+        if (const auto answer = ask_surface(corner.face, corner.uv)) answers.push_back(*answer);
+    }
+    if (const auto mean = mean_of(answers)) return *mean;
+  }
+  return clamped_physical(parameters_.hphydef);
+}
+
+double SizeRules::physical_at_point(int point) {
+  const auto joined = joined_points_.find(point);
+  if (joined == joined_points_.end()) return alone_physical_at_point(point);
+  double least = infinity;
+  for (const int p : joined->second) least = std::min(least, alone_physical_at_point(p));
+  return least;
+}
+
+double SizeRules::at_point(int point) {
+  const auto joined = joined_points_.find(point);
+  if (joined == joined_points_.end()) return alone_at_point(point);
+  double least = infinity;
+  for (const int p : joined->second) least = std::min(least, alone_at_point(p));
+  return least;
+}
+
+void SizeRules::join(const std::vector<std::vector<int>>& points, const JoinedFaces* faces) {
+  joined_points_.clear();
+  for (const std::vector<int>& all : points)
+    for (const int p : all) joined_points_[p] = all;
+  joined_faces_ = faces;
+}
+
 }  // namespace carreau

@@ -3,17 +3,12 @@
 // representations: a size is a double, or a Metric2 of the tangent plane if sizes differ by direction.
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <type_traits>
 
+#include "size/answers.h"
 #include "size/size_rules.h"
-#include "support/format.h"
 
 namespace carreau {
 namespace {
-
-template <typename Size>
-constexpr bool has_directions = std::is_same_v<Size, Metric2>;
 
 /// One size in all directions.
 template <typename Size>
@@ -41,72 +36,10 @@ Metric2 in_plane(const DirectedSizes& sizes, const TangentFrame& frame) noexcept
   return sizes.h1 == sizes.h2 ? of_size<Metric2>(sizes.h1) : term(sizes.w1, sizes.h1) + term(sizes.w2, sizes.h2);
 }
 
-std::string text_of(const Metric3& m) {
-  return "(xx, xy, xz, yy, yz, zz) = (" + format_number(m.xx) + ", " + format_number(m.xy) + ", " +
-         format_number(m.xz) + ", " + format_number(m.yy) + ", " + format_number(m.yz) + ", " + format_number(m.zz) +
-         ")";
-}
-
-std::string text_of(Metric2 m) {
-  return "(a, b, c) = (" + format_number(m.a) + ", " + format_number(m.b) + ", " + format_number(m.c) + ")";
-}
-
-/// Throws CallbackError if the answer is not positive and finite. A definite metric within 1e-12 of a semi-definite one
-/// is not usable either.
-void check(const Prescription& p, const PrescriptionSource& source, const Where& where) {
-  const auto reject = [&](const std::string& what) { throw CallbackError(where, source.name() + " returned " + what); };
-  const auto finite = [](auto... x) { return (std::isfinite(x) && ...); };
-  switch (p.kind) {
-    case Prescription::Kind::none:
-      return;
-    case Prescription::Kind::size:
-      if (!finite(p.size)) reject("the size " + format_number(p.size) + ", which is not a finite number");
-      if (!(p.size > 0)) reject("the size " + format_number(p.size) + ", which is not positive");
-      return;
-    case Prescription::Kind::space: {
-      const Metric3& m = p.space;
-      if (!finite(m.xx, m.xy, m.xz, m.yy, m.yz, m.zz)) reject("the metric " + text_of(m) + ", which is not finite");
-      if (!is_positive_definite(m)) reject("the metric " + text_of(m) + ", which is not positive definite");
-      return;
-    }
-    case Prescription::Kind::parameter: {
-      const Metric2 m = p.parameter;
-      if (!finite(m.a, m.b, m.c)) reject("the metric " + text_of(m) + ", which is not finite");
-      if (!is_positive_definite(m)) reject("the metric " + text_of(m) + ", which is not positive definite");
-      return;
-    }
-  }
-}
-
-Prescription enlarged(Prescription p, double factor) noexcept {
-  const double k = 1 / (factor * factor);
-  p.size *= factor;
-  for (double* m : {&p.space.xx, &p.space.xy, &p.space.xz, &p.space.yy, &p.space.yz, &p.space.zz}) *m *= k;
-  p.parameter = k * p.parameter;
-  return p;
-}
-
 Vec3 any_across(const Vec3& along) {
   const Vec3 axis = std::abs(along.x()) < 0.6 * norm(along) ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   return cross(along, axis);
 }
-
-/// The answers at one place.
-template <typename Size>
-struct Answers {
-  std::optional<double> size;
-
-  [[nodiscard]] bool empty() const noexcept { return !size; }
-  void add_size(double h) { size = h; }
-};
-template <>
-struct Answers<Metric2> {
-  std::vector<Prescription> all;
-
-  [[nodiscard]] bool empty() const noexcept { return all.empty(); }
-  void add(const Prescription& p) { all.push_back(p); }
-  void add_size(double h) { add(Prescription::of_size(h)); }
-};
 
 /// A place in a face or on a curve.
 template <typename Size>
@@ -542,30 +475,6 @@ CurveSizes SizeRules::ask_on_curve(int curve, std::span<const double> t, double 
 
 double SizeRules::on_curve(int curve, std::span<const double> t, double r) { return ask_on_curve(curve, t, r).h; }
 
-/// The answer at the point; else the mean of the curves that end here, a closed curve counting once; else the mean of
-/// the corners of surfaces.
-double SizeRules::mean_of_answers_around(int point) {
-  if (parameters_.physical == PhysicalSizes::asked) {
-    if (const auto answer = ask_point(point)) return clamped_physical(*answer);
-    const std::vector<CurveEnd> ends = ends_at(point);
-    std::vector<double> answers;
-    int answered = -1;
-    for (const SizeRules::CurveEnd& end : ends) {
-      if (end.curve == answered) continue;
-      if (const auto answer = ask_curve(end.curve, end.t)) {
-        answers.push_back(*answer);
-        answered = end.curve;
-      }
-    }
-    if (answers.empty()) {
-      for (const Corner& corner : corners_of(ends))
-        if (const auto answer = ask_surface(corner.face, corner.uv)) answers.push_back(*answer);
-    }
-    if (const auto mean = mean_of(answers)) return *mean;
-  }
-  return clamped_physical(parameters_.hphydef);
-}
-
 double SizeRules::alone_physical_at_point(int point) {
   if (parameters_.physical == PhysicalSizes::ignored) return infinity;
   auto& known = physical_at_point_[static_cast<std::size_t>(point)];
@@ -581,29 +490,6 @@ double SizeRules::alone_at_point(int point) {
     known = uses_metrics() ? SizesAtPlaces<Metric2>(*this).size_at_point(point, physical)
                            : SizesAtPlaces<double>(*this).size_at_point(point, physical);
   return std::min(*known, physical);
-}
-
-double SizeRules::physical_at_point(int point) {
-  const auto joined = joined_points_.find(point);
-  if (joined == joined_points_.end()) return alone_physical_at_point(point);
-  double least = infinity;
-  for (const int p : joined->second) least = std::min(least, alone_physical_at_point(p));
-  return least;
-}
-
-double SizeRules::at_point(int point) {
-  const auto joined = joined_points_.find(point);
-  if (joined == joined_points_.end()) return alone_at_point(point);
-  double least = infinity;
-  for (const int p : joined->second) least = std::min(least, alone_at_point(p));
-  return least;
-}
-
-void SizeRules::join(const std::vector<std::vector<int>>& points, const JoinedFaces* faces) {
-  joined_points_.clear();
-  for (const std::vector<int>& all : points)
-    for (const int p : all) joined_points_[p] = all;
-  joined_faces_ = faces;
 }
 
 }  // namespace carreau
