@@ -23,13 +23,13 @@ void put_point(const Vec3& p, std::string& text) {
 }
 
 /// Elements of one kind, in rows.
-struct Rows {
+struct ElementRows {
   int dimension, corners, gmsh;
   std::size_t width;
   const std::vector<std::int32_t>&nodes, &refs;
 };
 
-std::vector<Rows> rows_of(const HighOrderMesh& mesh) {
+std::vector<ElementRows> rows_of(const HighOrderMesh& mesh) {
   const int k = mesh.order - 2;
   constexpr int edges[]{8, 26, 27}, triangles[]{9, 21, 23}, quads[]{10, 36, 37};
   const auto p = static_cast<std::size_t>(mesh.order);
@@ -65,7 +65,7 @@ std::string curved_msh(const HighOrderMesh& given, bool association, bool versio
   EntityNames names = mesh.names;
   names.face_solids.clear();  // dolfinx rejects groups of solids, which have no elements here
   file.node_refs = &refs, file.names = &names, file.faces = &faces, file.periodic = &mesh.periodic;
-  for (const Rows& rows : rows_of(mesh))
+  for (const ElementRows& rows : rows_of(mesh))
     for (std::size_t e = 0; e < rows.refs.size(); ++e)
       file.elements.push_back({rows.dimension, rows.gmsh, rows.corners, rows.refs[e], std::span(rows.nodes).subspan(e * rows.width, rows.width)});
   return msh_text(file, version_2, association ? &mesh.association : nullptr);
@@ -80,7 +80,7 @@ std::string curved_vtu(const HighOrderMesh& given, bool association) {
   std::vector<std::size_t> counts;
   std::vector<Vec2> uv;
   std::size_t at = 0;
-  for (const Rows& rows : rows_of(mesh))
+  for (const ElementRows& rows : rows_of(mesh))
     for (std::size_t e = 0; e < rows.refs.size(); ++e) {
       const bool is_quad = rows.corners == 4;
       for (std::size_t i = 0; i < rows.width; ++i) {
@@ -119,8 +119,8 @@ std::string curved_vtu(const HighOrderMesh& given, bool association) {
 std::string curved_mfem(const HighOrderMesh& given) {
   const HighOrderMesh mesh = with_places(given, NodePlaces::gauss_lobatto);
   std::string text = "MFEM mesh v1.0\n\ndimension\n2\n\nelements\n" + std::to_string(mesh.triangle_refs.size() + mesh.quad_refs.size()) + "\n", nodes, boundary;
-  const std::vector<Rows> all = rows_of(mesh);
-  for (const Rows& rows : {all[1], all[2]}) {
+  const std::vector<ElementRows> all = rows_of(mesh);
+  for (const ElementRows& rows : {all[1], all[2]}) {
     const bool quad = rows.gmsh == all[2].gmsh;
     const std::vector<std::size_t> order = mfem_ranks(quad, mesh.order);
     for (std::size_t e = 0; e < rows.refs.size(); ++e) {
