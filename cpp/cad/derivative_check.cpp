@@ -154,25 +154,17 @@ double inside(double x, double shift, double low, double high) {
   return std::clamp(x < (low + high) / 2 ? x + shift : x - shift, low + margin, high - margin);
 }
 
-}  // namespace
-
-std::vector<WrongDerivative> find_wrong_surface_derivatives(Cad& cad, int face, std::span<const Vec2> uv, Vec2 low,
-                                                            Vec2 high, bool second) {
+/// Wrong claims of each order, each also wrong at a place beside: moved(place, beside) is a place inside, test(place, order) the claim there.
+template <typename Place, typename Moved, typename Test>
+std::vector<WrongDerivative> find_wrong(unsigned gives, bool second, std::span<const Place> places, const Moved& moved, const Test& test) {
   std::vector<WrongDerivative> wrong;
-  const Vec2 range = high - low;
-  const auto moved = [&](Vec2 p, Vec2 share) {
-    return Vec2{inside(p.x(), share.x() * range.x(), low.x(), high.x()), inside(p.y(), share.y() * range.y(), low.y(), high.y())};
-  };
   for (const int order : {1, 2}) {
     const unsigned bit = order == 1 ? want_first : want_second;
-    if ((cad.surface_gives() & bit) == 0 || (order == 2 && (!second || !wrong.empty()))) continue;
-    for (const Vec2& given : uv) {
-      const Vec2 p = moved(given, {}), other = moved(p, nearby);
-      const auto test = [&](Vec2 at) {
-        return where_defined([&] { return test_surface(cad, face, at, range, order); });
-      };
-      std::optional<WrongDerivative> found = test(p);
-      if (!found || !test(other)) continue;
+    if ((gives & bit) == 0 || (order == 2 && (!second || !wrong.empty()))) continue;
+    for (const Place& given : places) {
+      const Place p = moved(given, false), other = moved(p, true);
+      std::optional<WrongDerivative> found = where_defined([&] { return test(p, order); });
+      if (!found || !where_defined([&] { return test(other, order); })) continue;
       wrong.push_back(std::move(*found));
       break;
     }
@@ -180,25 +172,23 @@ std::vector<WrongDerivative> find_wrong_surface_derivatives(Cad& cad, int face, 
   return wrong;
 }
 
+}  // namespace
+
+std::vector<WrongDerivative> find_wrong_surface_derivatives(Cad& cad, int face, std::span<const Vec2> uv, Vec2 low,
+                                                            Vec2 high, bool second) {
+  const Vec2 range = high - low;
+  const auto moved = [&](const Vec2& p, bool beside) {
+    const Vec2 by = beside ? Vec2(nearby.cwiseProduct(range)) : Vec2{0, 0};
+    return Vec2{inside(p.x(), by.x(), low.x(), high.x()), inside(p.y(), by.y(), low.y(), high.y())};
+  };
+  return find_wrong(cad.surface_gives(), second, uv, moved, [&](const Vec2& p, int order) { return test_surface(cad, face, p, range, order); });
+}
+
 std::vector<WrongDerivative> find_wrong_curve_derivatives(Cad& cad, int face, int ic, std::span<const double> t,
                                                           Interval range, bool second) {
-  std::vector<WrongDerivative> wrong;
   const double width = range.b - range.a;
-  for (const int order : {1, 2}) {
-    const unsigned bit = order == 1 ? want_first : want_second;
-    if ((cad.curve_gives() & bit) == 0 || (order == 2 && (!second || !wrong.empty()))) continue;
-    for (const double given : t) {
-      const double p = inside(given, 0, range.a, range.b), other = inside(p, nearby.x() * width, range.a, range.b);
-      const auto test = [&](double at) {
-        return where_defined([&] { return test_curve(cad, face, ic, at, width, order); });
-      };
-      std::optional<WrongDerivative> found = test(p);
-      if (!found || !test(other)) continue;
-      wrong.push_back(std::move(*found));
-      break;
-    }
-  }
-  return wrong;
+  const auto moved = [&](double p, bool beside) { return inside(p, beside ? nearby.x() * width : 0, range.a, range.b); };
+  return find_wrong(cad.curve_gives(), second, t, moved, [&](double p, int order) { return test_curve(cad, face, ic, p, width, order); });
 }
 
 }  // namespace carreau

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fields/field_samples.h"
+#include "io/element_words.h"
 #include "io/files.h"
 #include "support/error.h"
 #include "support/infinity.h"
@@ -14,21 +15,6 @@
 namespace carreau {
 
 namespace {
-
-const char* word_of(FaceStatus status) {
-  switch (status) {
-    case FaceStatus::meshed:
-      return "meshed";
-    case FaceStatus::mended:
-      return "mended";
-    case FaceStatus::collapsed:
-      return "collapsed";
-    case FaceStatus::failed:
-      return "failed";
-    default:
-      return "not meshed";
-  }
-}
 
 class FieldWriter {
  public:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/element_words.h"
 #include "mesh/flat_mesh.h"
 
 namespace carreau {
@@ -65,26 +66,13 @@ Json mesh_counts(const SurfaceMesh& mesh, const MeshEvaluation& delivered) {
           {"edges_on_curves", delivered.edges.segments.size()}};
 }
 
-const char* status_name(FaceStatus status) {
-  switch (status) {
-    case FaceStatus::mended:
-      return "mended";
-    case FaceStatus::failed:
-      return "failed";
-    case FaceStatus::collapsed:
-      return "collapsed";
-    default:
-      return "not meshed";
-  }
-}
-
 /// Faces that are not simply meshed, vanished ones included.
 Json other_faces(const SurfaceMesh& mesh) {
   Json list = Json::array();
   for (const WholeFace& each : whole_faces(mesh)) {
     const FlatFace& face = each.face;
     if (face.status == FaceStatus::meshed) continue;
-    list.push_back({{"reference", face.ref}, {"name", face.name}, {"status", status_name(face.status)}, {"why", face.why}});
+    list.push_back({{"reference", face.ref}, {"name", face.name}, {"status", word_of(face.status)}, {"why", face.why}});
   }
   return list;
 }

@@ -59,13 +59,17 @@ void check_refs(const char* what, const std::vector<std::int32_t>& refs, std::si
   if (!refs.empty()) check_length(what, refs.size(), expected);
 }
 
+/// `who()`: the thing that names the vertex.
+template <typename Who>
+void check_vertex(std::int32_t vertex, std::size_t vertices, const Who& who) {
+  if (vertex < 0 || static_cast<std::size_t>(vertex) >= vertices)
+    throw InvalidArgument("a mesh cannot be written: " + who() + " names vertex " + std::to_string(vertex) + " of " + std::to_string(vertices));
+}
+
 template <std::size_t N>
 void check_indices(const char* what, const std::vector<std::array<std::int32_t, N>>& entities, std::size_t vertices) {
   for (std::size_t i = 0; i < entities.size(); ++i)
-    for (const std::int32_t vertex : entities[i])
-      if (vertex < 0 || static_cast<std::size_t>(vertex) >= vertices)
-        throw InvalidArgument("a mesh cannot be written: " + std::string(what) + " " + std::to_string(i) +
-                              " (from 0) names vertex " + std::to_string(vertex) + " of " + std::to_string(vertices));
+    for (const std::int32_t vertex : entities[i]) check_vertex(vertex, vertices, [&] { return what + (" " + std::to_string(i)) + " (from 0)"; });
 }
 
 // Elements and triangles are one surface.
@@ -75,16 +79,11 @@ void check_cells(const FlatMesh& mesh) {
     const Cell& cell = mesh.cells[c];
     t += corner_count(cell.kind) == 4 ? 2 : 1;
     for (int i = 0; i < node_count(cell.kind); ++i)
-      if (const std::int32_t v = cell.nodes[i]; v < 0 || static_cast<std::size_t>(v) >= mesh.vertices.size())
-        throw InvalidArgument("a mesh cannot be written: element " + std::to_string(c) + " (from 0) names vertex " +
-                              std::to_string(v) + " of " + std::to_string(mesh.vertices.size()));
+      check_vertex(cell.nodes[i], mesh.vertices.size(), [&] { return "element " + std::to_string(c) + " (from 0)"; });
   }
   if (!mesh.cells.empty()) check_length("the list of triangles", mesh.triangles.size(), t);
   if (!mesh.edge_mids.empty()) check_length("the list of nodes on edges", mesh.edge_mids.size(), mesh.edges.size());
-  for (const std::int32_t v : mesh.edge_mids)
-    if (v < 0 || static_cast<std::size_t>(v) >= mesh.vertices.size())
-      throw InvalidArgument("a mesh cannot be written: an edge names vertex " + std::to_string(v) + " of " +
-                            std::to_string(mesh.vertices.size()));
+  for (const std::int32_t v : mesh.edge_mids) check_vertex(v, mesh.vertices.size(), [] { return std::string("an edge"); });
 }
 
 void check_field(const MeshField& field, const FlatMesh& mesh) {

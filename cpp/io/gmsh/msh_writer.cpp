@@ -12,6 +12,7 @@
 #include <span>
 #include <utility>
 
+#include "io/element_words.h"
 #include "io/gmsh/msh_mesh.h"
 #include "io/mesh_writers.h"
 #include "support/format.h"
@@ -21,19 +22,7 @@ namespace carreau {
 namespace {
 
 /// The format's type of a kind of elements; nodes have the order of the format already.
-int type_of(CellKind kind) noexcept {
-  switch (kind) {
-    case CellKind::triangle3:
-      return 2;
-    case CellKind::triangle6:
-      return 9;
-    case CellKind::quad4:
-      return 3;
-    case CellKind::quad8:
-      return 16;
-  }
-  return 0;
-}
+int type_of(CellKind kind) noexcept { return by_kind(kind, 2, 9, 3, 16); }
 
 struct Entity {
   int tag = 0, physical = 0;

@@ -32,9 +32,9 @@ struct ElementSections {
 
   /// True when a section of elements has come.
   [[nodiscard]] bool any() const noexcept {
-    const auto has = [](const auto& section) { return section.start != Place{}; };
-    return has(edges) || has(edges3) || has(triangles) || has(quads) || has(triangles6) || has(quads9) ||
-           has(tetrahedra) || has(tetrahedra10) || has(pyramids) || has(prisms) || has(hexahedra);
+    bool found = false;
+    for_each([&](const char*, const auto& section) { found = found || section.start != Place{}; });
+    return found;
   }
 
   /// Reads `count` records of N vertices from one and a reference, by `vertex()` and `reference()`. Vertices below one
@@ -55,17 +55,7 @@ struct ElementSections {
   /// Calls `refuse(what, section, i, k)` for node k of element i, the first invalid vertex of a section.
   template <class Refuse>
   void check_indices(std::size_t vertices, Refuse&& refuse) const {
-    check("edge", edges, vertices, refuse);
-    check("edge of order 2", edges3, vertices, refuse);
-    check("triangle", triangles, vertices, refuse);
-    check("quadrilateral", quads, vertices, refuse);
-    check("triangle of order 2", triangles6, vertices, refuse);
-    check("quadrilateral of order 2", quads9, vertices, refuse);
-    check("tetrahedron", tetrahedra, vertices, refuse);
-    check("tetrahedron of order 2", tetrahedra10, vertices, refuse);
-    check("pyramid", pyramids, vertices, refuse);
-    check("prism", prisms, vertices, refuse);
-    check("hexahedron", hexahedra, vertices, refuse);
+    for_each([&](const char* what, const auto& section) { check(what, section, vertices, refuse); });
   }
 
   /// Moves all elements into the mesh; of solids without a surface their outer faces. `fail(place, sentence)` throws; `end`: the place for
@@ -93,6 +83,13 @@ struct ElementSections {
   }
 
  private:
+  /// Calls `use(what, section)` for each section.
+  template <class Use>
+  void for_each(Use&& use) const {
+    use("edge", edges), use("edge of order 2", edges3), use("triangle", triangles), use("quadrilateral", quads);
+    use("triangle of order 2", triangles6), use("quadrilateral of order 2", quads9), use("tetrahedron", tetrahedra);
+    use("tetrahedron of order 2", tetrahedra10), use("pyramid", pyramids), use("prism", prisms), use("hexahedron", hexahedra);
+  }
   template <std::size_t N>
   static void add_solids(SolidShape shape, const Section<N>& section, SolidSkin& skin) {
     for (std::size_t i = 0; i < section.list.nodes.size(); ++i) skin.add(shape, section.list.nodes[i], section.list.refs[i]);

@@ -36,6 +36,17 @@ Metric2 metric_along(double degrees, double h1, double h2) {
   return {p * c * c + q * s * s, (p - q) * c * s, p * s * s + q * c * c};
 }
 
+/// The side of a curve on which a subdomain lies, behind the number of the curve.
+PlaneSide side_of(Tokens& in, int line, int curve, const char* signs) {
+  PlaneSide side;
+  side.line = line, side.curve = curve;
+  const int sign = in.integer("the side of a segment");
+  if (sign != 1 && sign != -1) in.fail(line, "the side of a segment is " + std::to_string(sign) + "; it must be " + signs);
+  side.left = sign > 0;
+  side.ref = in.integer("the reference of a subdomain");
+  return side;
+}
+
 class DataReader {
  public:
   DataReader(std::string_view text, const std::string& name) : in_(text, name, {.comment = "--", .semicolons = true}) {
@@ -125,15 +136,8 @@ class DataReader {
   }
 
   void add_subdomain() {
-    PlaneSide side;
-    side.line = in_.line();
-    side.curve = segment();
-    const int sign = in_.integer("the side of a segment");
-    if (sign != 1 && sign != -1)
-      in_.fail(side.line, "the side of a segment is " + std::to_string(sign) + "; it must be +1 or -1");
-    side.left = sign > 0;
-    side.ref = in_.integer("the reference of a subdomain");
-    input_.sides.push_back(side);
+    const int line = in_.line(), curve = segment();
+    input_.sides.push_back(side_of(in_, line, curve, "+1 or -1"));
   }
 
   double size() {
@@ -221,15 +225,8 @@ class GeometryReader {
   }
 
   void add_subdomain(std::size_t segments) {
-    PlaneSide side;
-    side.line = in_.line();
-    side.curve = number(segments, "a segment", 1);
-    const int sign = in_.integer("the side of a segment");
-    if (sign != 1 && sign != -1)
-      in_.fail(side.line, "the side of a segment is " + std::to_string(sign) + "; it must be 1 or -1");
-    side.left = sign > 0;
-    side.ref = in_.integer("the reference of a subdomain");
-    input_.sides.push_back(side);
+    const int line = in_.line(), curve = number(segments, "a segment", 1);
+    input_.sides.push_back(side_of(in_, line, curve, "1 or -1"));
   }
 
   Tokens in_;

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "io/element_words.h"
 #include "io/mesh_writers.h"
 #include "io/solver/element_sets.h"
 #include "io/solver/narrow_numbers.h"
@@ -17,19 +18,7 @@ namespace {
 
 constexpr std::size_t max_property_name = 32, small_field = 8, large_field = 16, largest_number = 99'999'999;
 
-const char* card_of(CellKind kind) noexcept {
-  switch (kind) {
-    case CellKind::triangle3:
-      return "CTRIA3";
-    case CellKind::triangle6:
-      return "CTRIA6";
-    case CellKind::quad4:
-      return "CQUAD4";
-    case CellKind::quad8:
-      return "CQUAD8";
-  }
-  return "";
-}
+const char* card_of(CellKind kind) noexcept { return by_kind(kind, "CTRIA3", "CTRIA6", "CQUAD4", "CQUAD8"); }
 
 std::string padded(std::string field, std::size_t width) {
   field.resize(std::max(field.size(), width), ' ');

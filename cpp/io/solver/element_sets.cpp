@@ -73,30 +73,18 @@ std::map<std::int32_t, std::vector<std::vector<std::int32_t>>> edges_by_curve(co
   return curves;
 }
 
-/// Sets of one name, in the order of the first of each.
-template <typename Set>
-std::vector<NamedSets> named(const std::vector<Set>& sets, const std::map<std::int32_t, std::string>& given, Names& names) {
-  std::vector<NamedSets> found;
+/// Things of one name, in the order of the first of each: `list` is their member of Named, `ref_of(i)` a thing's reference.
+template <typename Named, typename RefOf>
+std::vector<Named> named(std::size_t count, std::vector<std::size_t> Named::*list, const RefOf& reference, const std::map<std::int32_t, std::string>& given,
+                         Names& names) {
+  std::vector<Named> found;
   std::map<std::string, std::size_t> place;
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    const auto name = given.find(sets[i].ref);
+  for (std::size_t i = 0; i < count && !given.empty(); ++i) {
+    const auto name = given.find(reference(i));
     if (name == given.end() || name->second.empty()) continue;
     const auto [at, fresh] = place.emplace(name->second, found.size());
     if (fresh) found.push_back({names.clean(name->second), {}});
-    found[at->second].sets.push_back(i);
-  }
-  return found;
-}
-
-std::vector<NamedVertices> named_vertices(const FlatMesh& mesh, Names& names) {
-  std::vector<NamedVertices> found;
-  std::map<std::string, std::size_t> place;
-  for (std::size_t v = 0; v < mesh.vertices.size() && !mesh.names.points.empty(); ++v) {
-    const auto name = mesh.names.points.find(ref_of(mesh.vertex_refs, v));
-    if (name == mesh.names.points.end() || name->second.empty()) continue;
-    const auto [at, fresh] = place.emplace(name->second, found.size());
-    if (fresh) found.push_back({names.clean(name->second), {}});
-    found[at->second].vertices.push_back(v);
+    (found[at->second].*list).push_back(i);
   }
   return found;
 }
@@ -119,10 +107,11 @@ ElementSets sets_of(const FlatMesh& mesh, std::size_t longest) {
     names.take(sets.curves.back().name);
   }
   for (const char* own : {"all_nodes", "all_faces"}) names.take(own);
-  sets.names = named(sets.faces, given, names);
+  sets.names = named(sets.faces.size(), &NamedSets::sets, [&](std::size_t i) { return sets.faces[i].ref; }, given, names);
   const std::map<std::int32_t, std::string> of_curves(mesh.names.curves.begin(), mesh.names.curves.end());
-  sets.curve_names = named(sets.curves, of_curves, names);
-  sets.point_names = named_vertices(mesh, names);
+  sets.curve_names = named(sets.curves.size(), &NamedSets::sets, [&](std::size_t i) { return sets.curves[i].ref; }, of_curves, names);
+  const std::map<std::int32_t, std::string> of_points(mesh.names.points.begin(), mesh.names.points.end());
+  sets.point_names = named(mesh.vertices.size(), &NamedVertices::vertices, [&](std::size_t v) { return ref_of(mesh.vertex_refs, v); }, of_points, names);
   return sets;
 }
 

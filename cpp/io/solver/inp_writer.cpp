@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "io/element_words.h"
 #include "io/mesh_writers.h"
 #include "io/solver/element_sets.h"
 #include "io/solver/narrow_numbers.h"
@@ -15,19 +16,7 @@ constexpr std::size_t max_set_name = 80, number_width = 20, a_line = 16;
 
 /// Shells of three to eight nodes, which have the order of the format, with the names of CalculiX: S6 is STRI65 in
 /// Abaqus.
-const char* type_of(CellKind kind) noexcept {
-  switch (kind) {
-    case CellKind::triangle3:
-      return "S3";
-    case CellKind::triangle6:
-      return "S6";
-    case CellKind::quad4:
-      return "S4";
-    case CellKind::quad8:
-      return "S8R";
-  }
-  return "";
-}
+const char* type_of(CellKind kind) noexcept { return by_kind<const char*>(kind, "S3", "S6", "S4", "S8R"); }
 
 /// Words of a list, sixteen a line; no line ends with a comma.
 class List {

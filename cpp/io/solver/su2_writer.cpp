@@ -58,31 +58,17 @@ std::vector<NamedSets> markers_of(const std::vector<Set>& sets, const std::vecto
   return markers;
 }
 
-void begin_marker(const std::string& name, std::size_t count, std::string& text) {
-  text += "MARKER_TAG= " + name + "\nMARKER_ELEMS= " + std::to_string(count) + "\n";
-}
-
-void add_face_markers(const ElementSets& sets, std::string& text) {
-  const std::vector<NamedSets> markers = markers_of(sets.faces, sets.names);
+/// Markers of sets, each with the elements of its sets: `elements(set)` is their list, `add` writes one.
+template <typename Set, typename Elements, typename Add>
+void add_markers(const std::vector<Set>& sets, const std::vector<NamedSets>& named, const Elements& elements, const Add& add, std::string& text) {
+  const std::vector<NamedSets> markers = markers_of(sets, named);
   text += "NMARK= " + std::to_string(markers.size()) + "\n";
   for (const NamedSets& marker : markers) {
     std::size_t count = 0;
-    for (const std::size_t i : marker.sets) count += sets.faces[i].cells.size();
-    begin_marker(marker.name, count, text);
+    for (const std::size_t i : marker.sets) count += elements(sets[i]).size();
+    text += "MARKER_TAG= " + marker.name + "\nMARKER_ELEMS= " + std::to_string(count) + "\n";
     for (const std::size_t i : marker.sets)
-      for (const Cell& cell : sets.faces[i].cells) add_cell(cell, text), text += '\n';
-  }
-}
-
-void add_curve_markers(const ElementSets& sets, std::string& text) {
-  const std::vector<NamedSets> markers = markers_of(sets.curves, sets.curve_names);
-  text += "NMARK= " + std::to_string(markers.size()) + "\n";
-  for (const NamedSets& marker : markers) {
-    std::size_t count = 0;
-    for (const std::size_t i : marker.sets) count += sets.curves[i].edges.size();
-    begin_marker(marker.name, count, text);
-    for (const std::size_t i : marker.sets)
-      for (const auto& edge : sets.curves[i].edges) add_element(written_line, edge.data(), 2, text), text += '\n';
+      for (const auto& element : elements(sets[i])) add(element), text += '\n';
   }
 }
 
@@ -97,9 +83,11 @@ std::string su2_text(const FlatMesh& mesh) {
   if (flat) add_plane_elements(sets, text);  // no count of 0 in space: meshio does not take it
   add_points(mesh, flat, text);
   if (flat)
-    add_curve_markers(sets, text);
+    add_markers(sets.curves, sets.curve_names, [](const auto& curve) -> const auto& { return curve.edges; },
+                [&](const auto& edge) { add_element(written_line, edge.data(), 2, text); }, text);
   else
-    add_face_markers(sets, text);
+    add_markers(sets.faces, sets.names, [](const auto& face) -> const auto& { return face.cells; },
+                [&](const Cell& cell) { add_cell(cell, text); }, text);
   return text;
 }
 

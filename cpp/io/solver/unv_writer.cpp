@@ -3,6 +3,7 @@
 // double precision, thin shells and beams, groups of elements.
 #include <cstdio>
 
+#include "io/element_words.h"
 #include "io/mesh_writers.h"
 #include "io/solver/element_sets.h"
 
@@ -14,19 +15,7 @@ constexpr std::size_t max_group_name = 40;
 constexpr int beam = 21, beam_of_order_2 = 24, colour = 7, node_code = 7, element_code = 8;
 
 /// Descriptor of a thin shell.
-int descriptor_of(CellKind kind) noexcept {
-  switch (kind) {
-    case CellKind::triangle3:
-      return 91;
-    case CellKind::triangle6:
-      return 92;
-    case CellKind::quad4:
-      return 94;
-    case CellKind::quad8:
-      return 95;
-  }
-  return 0;
-}
+int descriptor_of(CellKind kind) noexcept { return by_kind(kind, 91, 92, 94, 95); }
 
 void add_integer(std::size_t n, std::string& text) {
   char field[32];

@@ -3,25 +3,14 @@
 
 #include <limits>
 
+#include "io/element_words.h"
 #include "io/mesh_writers.h"
 
 namespace carreau {
 
 namespace {
 
-std::uint8_t vtk_type(CellKind kind) noexcept {
-  switch (kind) {
-    case CellKind::triangle3:
-      return 5;
-    case CellKind::triangle6:
-      return 22;
-    case CellKind::quad4:
-      return 9;
-    case CellKind::quad8:
-      return 23;
-  }
-  return 0;
-}
+std::uint8_t vtk_type(CellKind kind) noexcept { return by_kind<std::uint8_t>(kind, 5, 22, 9, 23); }
 
 }  // namespace
 

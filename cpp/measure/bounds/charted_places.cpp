@@ -59,27 +59,15 @@ void ChartedPlaces::evaluate(std::span<const Vec2> uv, const Use& use) {
               });
 }
 
-Vec2 ChartedPlaces::Map::at(const PlaceInTriangle& place) const {
-  const std::array<double, 3> w{1 - place.x() - place.y(), place.x(), place.y()};
-  if (pole < 0) {
-    Vec2 uv = w[0] * corner[0] + w[1] * corner[1] + w[2] * corner[2];
-    for (std::size_t i = 0; i < 3; ++i) uv += 4 * w[i] * w[(i + 1) % 3] * bulge[i];
-    return uv;
-  }
-  const auto i = static_cast<std::size_t>(pole), j = (i + 1) % 3, k = (i + 2) % 3;
-  const double rest = w[j] + w[k], share = rest > 0 ? w[k] / rest : 0.5;
-  return w[i] * lerp(arrival[0], arrival[1], share) + w[j] * corner[j] + w[k] * corner[k];
-}
-
 Vec2 ChartedPlaces::arrival(std::int32_t pole, std::int32_t from) const {
   const AtVertex& at = vertex_[from];
   const Vec3 chord = mesh_.vertices[face_.vertex[pole]] - mesh_.vertices[face_.vertex[from]];
   return degenerate_.arrival(pole, {vertex_[pole].su, vertex_[pole].sv}, face_.uv[from], {at.su, at.sv}, chord).value_or(face_.uv[pole]);
 }
 
-ChartedPlaces::Map ChartedPlaces::map_of(std::int32_t triangle) const {
+ChartMap ChartedPlaces::map_of(std::int32_t triangle) const {
   const auto& c = face_.triangles[static_cast<std::size_t>(triangle)];
-  Map map{{face_.uv[c[0]], face_.uv[c[1]], face_.uv[c[2]]}, {bulge_of(triangle, 0), bulge_of(triangle, 1), bulge_of(triangle, 2)}, -1, {}};
+  ChartMap map{{face_.uv[c[0]], face_.uv[c[1]], face_.uv[c[2]]}, {bulge_of(triangle, 0), bulge_of(triangle, 1), bulge_of(triangle, 2)}, -1, {}};
   for (int i = 0; i < 3; ++i) {
     const std::int32_t a = c[(i + 1) % 3], b = c[(i + 2) % 3];
     if (vertex_[c[i]].regular || !vertex_[a].regular || !vertex_[b].regular) continue;
@@ -88,35 +76,20 @@ ChartedPlaces::Map ChartedPlaces::map_of(std::int32_t triangle) const {
   return map;
 }
 
-// The middle of the image over the middle of the chord, by the cubic that has the derivatives at the ends.
-Vec2 ChartedPlaces::over_chord(std::int32_t a, std::int32_t b) const {
-  const AtVertex &p = vertex_[a], &q = vertex_[b];
-  if (!p.regular || !q.regular) return {0, 0};
-  const Vec2 way = face_.uv[b] - face_.uv[a];
-  const Vec3 su = 0.5 * (p.su + q.su), sv = 0.5 * (p.sv + q.sv);
-  const Vec3 off = ((way.x() * (q.su - p.su)) + (way.y() * (q.sv - p.sv))) / 8;
-  const double e = dot(su, su), f = dot(su, sv), g = dot(sv, sv), x = dot(su, off), y = dot(sv, off), det = e * g - f * f;
-  const Vec2 bulge{(g * x - f * y) / det, (e * y - f * x) / det};
-  return is_finite(bulge) ? bulge : Vec2(0, 0);
-}
-
-// Weights change by a quarter at most: then places stay in the two triangles.
-double ChartedPlaces::part_inside(std::int32_t triangle, const Vec2& bulge) const {
-  const auto& c = face_.triangles[static_cast<std::size_t>(triangle)];
-  const Vec2 ab = face_.uv[c[1]] - face_.uv[c[0]], ac = face_.uv[c[2]] - face_.uv[c[0]];
-  const double area = cross(ab, ac), b = cross(bulge, ac) / area, d = cross(ab, bulge) / area;
-  const double most = std::max({std::abs(b), std::abs(d), std::abs(b + d)});
-  return most > 0.25 ? 0.25 / most : 1;
-}
-
 Vec2 ChartedPlaces::bulge_of(std::int32_t triangle, int side) const {
   const SharedEdge& edge = edge_[edges_.of_triangle[first_ + static_cast<std::size_t>(triangle)][side]];
   if (edge.beside[1] < 0 || (edge.beside[0] != triangle && edge.beside[1] != triangle)) return {0, 0};
   for (const std::int32_t t : edge.beside)
     for (const std::int32_t v : face_.triangles[static_cast<std::size_t>(t)])
       if (!vertex_[v].regular) return {0, 0};
-  const Vec2 bulge = over_chord(edge.from, edge.to);
-  const double part = std::min(part_inside(edge.beside[0], bulge), part_inside(edge.beside[1], bulge));
+  const AtVertex &p = vertex_[edge.from], &q = vertex_[edge.to];
+  const Vec2 bulge = bulge_over_chord(face_.uv[edge.to] - face_.uv[edge.from], {p.su, p.sv}, {q.su, q.sv});
+  if (!is_finite(bulge)) return {0, 0};
+  double part = 1;
+  for (const std::int32_t t : edge.beside) {
+    const auto& c = face_.triangles[static_cast<std::size_t>(t)];
+    part = std::min(part, part_inside(bulge, face_.uv[c[1]] - face_.uv[c[0]], face_.uv[c[2]] - face_.uv[c[0]]));
+  }
   return std::isfinite(part) ? Vec2(part * bulge) : Vec2(0, 0);
 }
 
@@ -152,7 +125,7 @@ void ChartedPlaces::forget() {
 }
 
 // Shared with the triangle that has the same edge of (u, v).
-void ChartedPlaces::add_side(std::int32_t triangle, int side, const Map& map, Ranks& ranks) {
+void ChartedPlaces::add_side(std::int32_t triangle, int side, const ChartMap& map, Ranks& ranks) {
   const auto& c = face_.triangles[static_cast<std::size_t>(triangle)];
   const std::int32_t from = c[side], to = c[(side + 1) % 3];
   const std::int32_t edge = edges_.of_triangle[first_ + static_cast<std::size_t>(triangle)][side];
@@ -178,7 +151,7 @@ void ChartedPlaces::see(std::span<const std::int32_t> triangles) {
   const std::size_t known = uv_.size();
   ranks_.reserve(triangles.size());
   for (const std::int32_t t : triangles) {
-    const Map map = map_of(t);
+    const ChartMap map = map_of(t);
     Ranks& ranks = ranks_.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {
       ranks[corner_ranks[i]] = vertex_[face_.triangles[static_cast<std::size_t>(t)][i]].place;

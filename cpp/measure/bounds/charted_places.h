@@ -12,7 +12,7 @@
 #include "measure/base/mesh_edges.h"
 #include "mesh/surface_mesh.h"
 #include "support/monitor.h"
-#include "surface/remesh/bounds/triangle_bound.h"
+#include "surface/remesh/bounds/chart_map.h"
 
 namespace carreau {
 
@@ -51,14 +51,6 @@ class ChartedPlaces {
 
  private:
   using Ranks = std::array<std::int32_t, TriangleBound::lattice_size>;
-  /// A triangle's map to (u, v). At a pole it is the sector between the ways from its other corners.
-  struct Map {
-    std::array<Vec2, 3> corner;
-    std::array<Vec2, 3> bulge;  ///< of the middles of sides
-    int pole = -1;
-    std::array<Vec2, 2> arrival;  ///< end points of the ways from the next corner and the one after it
-    [[nodiscard]] Vec2 at(const PlaceInTriangle& place) const;
-  };
   struct AtVertex {
     std::int32_t place = -1;
     bool regular = false;
@@ -68,12 +60,10 @@ class ChartedPlaces {
   void see_vertices(std::span<const std::int32_t> triangles);
   void see_vertex(std::int32_t v);
   [[nodiscard]] Vec2 bulge_of(std::int32_t triangle, int side) const;
-  [[nodiscard]] Vec2 over_chord(std::int32_t a, std::int32_t b) const;
-  [[nodiscard]] double part_inside(std::int32_t triangle, const Vec2& bulge) const;
   void forget();
-  [[nodiscard]] Map map_of(std::int32_t triangle) const;
+  [[nodiscard]] ChartMap map_of(std::int32_t triangle) const;
   [[nodiscard]] Vec2 arrival(std::int32_t pole, std::int32_t from) const;
-  void add_side(std::int32_t triangle, int side, const Map& map, Ranks& ranks);
+  void add_side(std::int32_t triangle, int side, const ChartMap& map, Ranks& ranks);
   std::int32_t add(const Vec2& uv);
   template <typename Use>
   void evaluate(std::span<const Vec2> uv, const Use& use);

@@ -17,27 +17,22 @@ namespace {
 
 using Edge = std::array<std::int32_t, 2>;
 
-/// Sums over all processes, element by element.
-std::vector<double> sums(Team& team, std::string_view step, const std::vector<double>& mine) {
+/// Combines the numbers of all processes, element by element, by add(number, another).
+template <typename Add>
+std::vector<double> combined(Team& team, std::string_view step, const std::vector<double>& mine, std::vector<double> all, const Add& add) {
   PacketWriter packet;
   packet.put(mine);
-  std::vector<double> all(mine.size(), 0);
   for (const std::string& of_rank : team.exchange(step, packet.bytes())) {
     const std::vector<double> theirs = PacketReader(of_rank).reals();
-    for (std::size_t i = 0; i < std::min(all.size(), theirs.size()); ++i) all[i] += theirs[i];
+    for (std::size_t i = 0; i < std::min(all.size(), theirs.size()); ++i) all[i] = add(all[i], theirs[i]);
   }
   return all;
 }
-
+std::vector<double> sums(Team& team, std::string_view step, const std::vector<double>& mine) {
+  return combined(team, step, mine, std::vector<double>(mine.size(), 0), [](double a, double b) { return a + b; });
+}
 std::vector<double> least(Team& team, std::string_view step, const std::vector<double>& mine) {
-  PacketWriter packet;
-  packet.put(mine);
-  std::vector<double> all = mine;
-  for (const std::string& of_rank : team.exchange(step, packet.bytes())) {
-    const std::vector<double> theirs = PacketReader(of_rank).reals();
-    for (std::size_t i = 0; i < std::min(all.size(), theirs.size()); ++i) all[i] = std::min(all[i], theirs[i]);
-  }
-  return all;
+  return combined(team, step, mine, mine, [](double a, double b) { return std::min(a, b); });
 }
 
 /// Bits of numbers from 0 on ascend as they do.

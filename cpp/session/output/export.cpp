@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <type_traits>
 
 #include "mesh/elements/cell_quality.h"
 #include "mesh/quality.h"
@@ -190,6 +191,20 @@ std::vector<std::size_t> faces_of_reference(const SurfaceMesh& mesh, int ref) {
   return found;
 }
 
+// Appends the points of a curve, between its ends.
+template <typename Point>
+void append_line(const FaceCurve& curve, const std::vector<Point>& points, FlatMesh& flat) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if constexpr (std::is_same_v<Point, Vec3>)
+      flat.vertices.push_back(points[i]);
+    else
+      flat.vertices.push_back({points[i].x(), points[i].y(), 0});
+    flat.vertex_refs.push_back(i == 0 ? curve.end1 : i + 1 == points.size() ? curve.end2 : 0);
+    const auto last = static_cast<std::int32_t>(flat.vertices.size()) - 1;
+    if (i > 0) flat.edges.push_back({last - 1, last}), flat.edge_refs.push_back(curve.ref);
+  }
+}
+
 FlatMesh supports_as_mesh(const ExportSource& source) {
   FlatMesh flat;
   std::set<int> done;
@@ -197,30 +212,14 @@ FlatMesh supports_as_mesh(const ExportSource& source) {
     for (std::size_t c = 0; c < source.supports.of_face[f].size(); ++c) {
       // The first of several curves that are one in space represents all, as everywhere.
       const FaceCurve& curve = source.model.faces[f].curves[c];
-      if (!done.insert(curve.ref).second) continue;
-      const std::vector<Vec3>& xyz = source.supports.of_face[f][c].xyz;
-      for (std::size_t i = 0; i < xyz.size(); ++i) {
-        flat.vertices.push_back(xyz[i]);
-        flat.vertex_refs.push_back(i == 0 ? curve.end1 : i + 1 == xyz.size() ? curve.end2 : 0);
-        const auto last = static_cast<std::int32_t>(flat.vertices.size()) - 1;
-        if (i > 0) flat.edges.push_back({last - 1, last}), flat.edge_refs.push_back(curve.ref);
-      }
+      if (done.insert(curve.ref).second) append_line(curve, source.supports.of_face[f][c].xyz, flat);
     }
   return flat;
 }
 
 // Appends the known boundary of a face that has failed.
 void append_boundary(const ExportSource& source, std::size_t f, FlatMesh& flat) {
-  for (std::size_t c = 0; c < source.supports.of_face[f].size(); ++c) {
-    const FaceCurve& curve = source.model.faces[f].curves[c];
-    const std::vector<Vec2>& uv = source.supports.of_face[f][c].uv;
-    for (std::size_t i = 0; i < uv.size(); ++i) {
-      flat.vertices.push_back({uv[i].x(), uv[i].y(), 0});
-      flat.vertex_refs.push_back(i == 0 ? curve.end1 : i + 1 == uv.size() ? curve.end2 : 0);
-      const auto last = static_cast<std::int32_t>(flat.vertices.size()) - 1;
-      if (i > 0) flat.edges.push_back({last - 1, last}), flat.edge_refs.push_back(curve.ref);
-    }
-  }
+  for (std::size_t c = 0; c < source.supports.of_face[f].size(); ++c) append_line(source.model.faces[f].curves[c], source.supports.of_face[f][c].uv, flat);
 }
 
 // The curves of a face's parts without triangles; curves of other parts are not shown. Empty: all have.

@@ -152,12 +152,12 @@ class ChordGradation {
   }
 
   void add_triangle(std::int32_t face, const EditableMesh::Triangle& t, EveningJudgement& sum) const {
-    sum.quality = std::min(sum.quality, quality(face, t));
+    sum.add(quality(face, t));
     if (!keeps_) return;
     const std::array<Vec3, 3> at{position(face, t[0]), position(face, t[1]), position(face, t[2])};
     const std::array<Vec3, 3> normals{corners_[face][t[0]].normal(), corners_[face][t[1]].normal(),
                                       corners_[face][t[2]].normal()};
-    sum.beyond = std::max(sum.beyond, kept_.share(at, normals));
+    sum.share = std::max(sum.share, kept_.share(at, normals));
   }
   void add_edge(std::int32_t face, std::int32_t a, std::int32_t b, LengthRange range, EveningJudgement& sum) const {
     sum.excess += excess(face, a, b);

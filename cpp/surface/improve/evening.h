@@ -2,13 +2,12 @@
 // How changes of neighbouring edges are judged. Private to even_edges.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
-#include "surface/improve/thresholds.h"
-
+#include "mesh/change.h"
 #include "metric/unit_edge.h"
 #include "support/rounding_of.h"
+#include "surface/improve/thresholds.h"
 
 namespace carreau {
 
@@ -20,19 +19,18 @@ struct LengthRange {
 };
 
 /// A judgement of some edges and triangles.
-struct EveningJudgement {
-  double excess = 0;   ///< sum over the limit, as a share of the limit
-  int out = 0;         ///< edges that are too long or too short
-  double quality = 1;  ///< of the worst triangle
-  double beyond = 0;   ///< largest angle or offset of a triangle, as a share of the bound
+struct EveningJudgement : TriangleShapes {
+  double excess = 0;  ///< sum over the limit, as a share of the limit
+  int out = 0;        ///< edges that are too long or too short
 
   [[nodiscard]] bool better_than(const EveningJudgement& other) const noexcept {
     if (std::abs(excess - other.excess) > rounding_of::places) return excess < other.excess;
-    return out != other.out ? out < other.out : quality > other.quality;
+    return out != other.out ? out < other.out : worst > other.worst;
   }
   /// Ignores the excess. Triangles of quality `good` are never worse.
   [[nodiscard]] bool no_worse_than(const EveningJudgement& before, double good) const noexcept {
-    return out <= before.out && quality >= std::min(before.quality, good) && beyond <= std::max(before.beyond, 1.);
+    const Change change{before, *this};
+    return out <= before.out && change.keeps_shapes(good) && change.keeps_surface();
   }
   [[nodiscard]] bool improves(const EveningJudgement& before, double good) const noexcept {
     return excess < before.excess - thresholds::evening::min_gain && no_worse_than(before, good);

@@ -62,7 +62,7 @@ class LengthRatio {
       for (const EditableMesh::Place p : mesh.fan(v)) {
         const auto& t = mesh.at(p);
         const auto corner = [&](int i) { return mesh.position(p.face, t[i]); };
-        sum.quality = std::min(sum.quality, quality_q2(corner(0), corner(1), corner(2)));
+        sum.add(quality_q2(corner(0), corner(1), corner(2)));
       }
     }
     return sum;

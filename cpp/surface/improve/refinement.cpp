@@ -145,11 +145,7 @@ class Refinement {
   /// Beyond a side; none where that is imposed.
   [[nodiscard]] std::optional<Quad> quad(int t, int side) const { return editable_->quad({0, t}, side); }
 
-  [[nodiscard]] SurfaceJet jet_at(const Vec2& uv) {
-    SurfaceJet jet;
-    cad_.surface(input_.ref, want_position | want_first, {&uv, 1}, {&jet, 1});
-    return jet;
-  }
+  [[nodiscard]] SurfaceJet jet_at(const Vec2& uv) { return surface_at(cad_, input_.ref, want_position | want_first, uv); }
   [[nodiscard]] bool is_sound(int t) {
     const Triangle c = triangle(t);
     if (collapsed(c)) return true;

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "cad/fundamental_forms.h"
+#include "mesh/change.h"
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
 #include "mesh/shape_levels.h"
@@ -74,10 +75,10 @@ class Smoothing {
   [[nodiscard]] double quality_of(std::int32_t t) const {
     return quality_in_space(mesh_.plane.triangles[t], mesh_.xyz);
   }
-  [[nodiscard]] double worst_around(std::int32_t v) const {
-    double worst = 1;
-    for (const Place p : star(v)) worst = std::min(worst, quality_of(p.triangle));
-    return worst;
+  [[nodiscard]] TriangleShapes shapes_around(std::int32_t v) const {
+    TriangleShapes shapes;
+    for (const Place p : star(v)) shapes.add(quality_of(p.triangle));
+    return shapes;
   }
   // The quality, negative for a triangle that is turned against `normal`.
   [[nodiscard]] double signed_quality(std::int32_t t, const Vec3& normal) const {
@@ -98,11 +99,6 @@ class Smoothing {
     }
     return worst;
   }
-  [[nodiscard]] double sum_around(std::int32_t v) const {
-    double sum = 0;
-    for (const Place p : star(v)) sum += quality_of(p.triangle);
-    return sum;
-  }
   [[nodiscard]] double mean_edge(std::int32_t v) const {
     double sum = 0;
     for (const Place p : star(v))
@@ -110,11 +106,7 @@ class Smoothing {
     return sum / (2 * static_cast<double>(star(v).size()));
   }
 
-  [[nodiscard]] SurfaceJet jet_at(const Vec2& uv) {
-    SurfaceJet jet;
-    cad_.surface(ref_, want_position | want_first, {&uv, 1}, {&jet, 1});
-    return jet;
-  }
+  [[nodiscard]] SurfaceJet jet_at(const Vec2& uv) { return surface_at(cad_, ref_, want_position | want_first, uv); }
   void ask_normals(std::int32_t centre) {
     std::vector<Vec2> uv;
     std::vector<std::int32_t> asked;
@@ -168,8 +160,8 @@ class Smoothing {
   }
 
   bool move(std::int32_t v) {
-    const double worst = worst_around(v), sum = sum_around(v);
-    if (!(worst < shape_level::good)) return false;
+    const TriangleShapes before = shapes_around(v);
+    if (!(before.worst < shape_level::good)) return false;
     const Vec2 home = mesh_.plane.vertices[v];
     const SurfaceJet jet = jet_at(home);
     const std::optional<Vec3> normal = unit_normal(jet);
@@ -190,7 +182,8 @@ class Smoothing {
       Trial trial(editable_);
       editable_.move({0, v}, uv, there.s);
       known_[v].normal = normal_of(there);
-      const bool better = worst_around(v) > worst + shape_level::gain && (worst < shape_level::poor || sum_around(v) > sum);
+      const TriangleShapes after = shapes_around(v);
+      const bool better = after.worst > before.worst + shape_level::gain && (before.worst < shape_level::poor || after.sum > before.sum);
       if (!better || !agrees(v)) continue;
       trial.accept();
       return true;

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "metric/unit_edge.h"
-#include "support/incidence.h"
 #include "support/work_sizes.h"
 #include "surface/elements/quads/quad_shape.h"
 #include "surface/elements/quads/space_quads.h"
@@ -36,7 +35,7 @@ class Pass {
         ideal_(ideal),
         active_(active),
         monitor_(monitor),
-        around_(quads.vertices(), closed(quads.cells())),
+        around_(cells_around(quads.vertices(), quads.cells())),
         degree_(quads.vertices(), 0),
         touched_(quads.vertices(), 0) {
     for (const MixedCell& cell : cells_)
@@ -58,12 +57,6 @@ class Pass {
   [[nodiscard]] std::vector<char> take_touched() { return std::move(touched_); }
 
  private:
-  // Triangles name their first corner twice: it is counted once below.
-  static Cells closed(Cells cells) {
-    for (MixedCell& cell : cells)
-      if (cell[3] < 0) cell[3] = cell[0];
-    return cells;
-  }
   [[nodiscard]] std::vector<std::int32_t> cells_at(std::int32_t v) const {
     const auto all = around_.of(v);
     std::vector<std::int32_t> cells(all.begin(), all.end());

@@ -284,40 +284,31 @@ void place_cells(const ElementWork& work, SlaveQuads& quads) {
   slave.xyz.resize(n), slave.size.resize(n, -1);
   for (std::size_t v = known; v < n; ++v)
     if (slave.vertex[v] >= 0) slave.xyz[v] = work.result.mesh.vertices[slave.vertex[v]];
-  ImageVertices vertices{.cad = work.cad(), .face = work.result.mesh.faces[slave.face].ref, .target = slave.xyz,
-                         .from_uv = std::vector<Vec2>(n), .known = std::vector<char>(n, 1)};
-  for (std::size_t v = 0; v < quads.image.size(); ++v) {
-    const std::int32_t w = quads.image[v];
-    if (w < 0) continue;
-    vertices.from_uv[w] = master.patch.uv[v];
-    if (slave.patch.fixed[w] != 0 && slave.vertex[w] >= 0) continue;  // middles beside poles are fixed, and not placed yet
-    vertices.known[w] = 0;
-    vertices.target[w] = quads.pair->map(master.xyz[v]);
-    slave.size[w] = master.size[v] >= 0 ? master.size[v] : work.result.vertex_size[master.vertex[v]];
+  std::vector<std::int32_t> source(n, -1), rank(n, -1), of;
+  for (std::size_t v = 0; v < quads.image.size(); ++v)
+    if (quads.image[v] >= 0) source[quads.image[v]] = static_cast<std::int32_t>(v);
+  ImageVertices vertices{.cad = work.cad(), .face = work.result.mesh.faces[slave.face].ref, .target = {}, .from_uv = {}, .known = {}};
+  std::vector<Vec2> uv;
+  std::vector<Vec3> xyz;
+  for (std::size_t w = 0; w < n; ++w) {
+    const std::int32_t v = source[w];
+    if (v < 0) continue;  // no cell has it
+    const bool known_place = slave.patch.fixed[w] != 0 && slave.vertex[w] >= 0;  // middles beside poles are fixed, and not placed yet
+    rank[w] = static_cast<std::int32_t>(of.size());
+    of.push_back(static_cast<std::int32_t>(w));
+    vertices.target.push_back(known_place ? slave.xyz[w] : quads.pair->map(master.xyz[v]));
+    vertices.from_uv.push_back(master.patch.uv[v]), vertices.known.push_back(known_place ? 1 : 0);
+    if (!known_place) slave.size[w] = master.size[v] >= 0 ? master.size[v] : work.result.vertex_size[master.vertex[v]];
+    uv.push_back(slave.patch.uv[w]), xyz.push_back(slave.xyz[w]);
   }
-  // Vertices that no cell has are passed over.
-  std::vector<char> used(n, 0);
-  for (const std::int32_t w : quads.image)
-    if (w >= 0) used[w] = 1;
   std::vector<std::array<std::int32_t, 3>> triangles;
   for (const MixedCell& c : slave.patch.cells) {
     triangles.push_back({c[0], c[1], c[2]});
     if (corners_of(c) == 4) triangles.push_back({c[0], c[2], c[3]});
   }
-  ImageVertices fitted{.cad = vertices.cad, .face = vertices.face, .target = {}, .from_uv = {}, .known = {}};
-  std::vector<std::int32_t> rank(n, -1), of;
-  std::vector<Vec2> uv;
-  std::vector<Vec3> xyz;
-  for (std::size_t w = 0; w < n; ++w) {
-    if (used[w] == 0) continue;
-    rank[w] = static_cast<std::int32_t>(of.size());
-    of.push_back(static_cast<std::int32_t>(w));
-    fitted.target.push_back(vertices.target[w]), fitted.from_uv.push_back(vertices.from_uv[w]), fitted.known.push_back(vertices.known[w]);
-    uv.push_back(slave.patch.uv[w]), xyz.push_back(slave.xyz[w]);
-  }
   for (auto& t : triangles)
     for (std::int32_t& w : t) w = rank[w];
-  place_images(fitted, triangles, rounding_of::places * work.periodic->gap, uv, xyz);
+  place_images(vertices, triangles, rounding_of::places * work.periodic->gap, uv, xyz);
   for (std::size_t i = 0; i < of.size(); ++i) slave.patch.uv[of[i]] = uv[i], slave.xyz[of[i]] = xyz[i];
   slave.lifted = slave.patch.uv;
 }

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "support/incidence.h"
 #include "support/work_sizes.h"
 #include "surface/elements/quads/matching.h"
 #include "surface/elements/quads/quad_shape.h"
@@ -46,9 +45,7 @@ class Pairing {
   using Key = std::array<std::int32_t, 3>;  // ends of an edge, ascending, and a triangle
 
   void collect() {
-    std::vector<std::array<std::int32_t, 4>> with_first(cells_);
-    for (auto& cell : with_first) cell[3] = cell[0];
-    const Incidence around(vertices_, with_first);
+    const Incidence around = cells_around(vertices_, cells_);
     int n = 0;
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(cells_.size()); ++t) {
       if (++n % work_sizes::searches == 0) monitor_.checkpoint();

@@ -5,6 +5,12 @@
 
 namespace carreau {
 
+Incidence cells_around(std::size_t vertices, std::vector<MixedCell> cells) {
+  for (MixedCell& cell : cells)
+    if (cell[3] < 0) cell[3] = cell[0];
+  return {vertices, cells};
+}
+
 FaceCharts::FaceCharts(const ControlSpace& space)
     : space_(&space), bends_(space.largest_bend() > thresholds::quads::min_bend) {}
 

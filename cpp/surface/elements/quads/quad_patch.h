@@ -8,6 +8,7 @@
 
 #include "control_space/control_space.h"
 #include "metric/chart.h"
+#include "support/incidence.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -25,6 +26,9 @@ struct QuadPatch {
   /// with that corner has an angle of 180 degrees there, whatever the angle of its chords.
   std::vector<std::array<std::int32_t, 3>> flat = {};
 };
+
+/// The cells at each vertex, ascending; a triangle is there twice at its first corner.
+Incidence cells_around(std::size_t vertices, std::vector<MixedCell> cells);
 
 /// The metric of a face about any of its places.
 class FaceCharts {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "support/incidence.h"
 #include "surface/elements/quads/quad_shape.h"
 #include "surface/elements/quads/space_quads.h"
 #include "surface/elements/quads/thresholds.h"
@@ -27,7 +26,7 @@ class Walks {
         cells_(quads.cells()),
         is_imposed_(is_imposed),
         monitor_(monitor),
-        around_(quads.vertices(), closed(quads.cells())),
+        around_(cells_around(quads.vertices(), quads.cells())),
         met_(quads.cells().size(), -1),
         from_(quads.cells().size(), -1),
         touched_(quads.cells().size(), 0) {}
@@ -46,11 +45,6 @@ class Walks {
 
  private:
   using Side = std::pair<std::int32_t, std::int32_t>;
-  static std::vector<MixedCell> closed(std::vector<MixedCell> cells) {
-    for (MixedCell& cell : cells)
-      if (cell[3] < 0) cell[3] = cell[0];
-    return cells;
-  }
 
   // From c to the nearest other triangle, through cells that no walk has met.
   bool walk_to_another(std::int32_t c) {

@@ -10,7 +10,6 @@
 
 #include "mesh/local_search.h"
 #include "metric/unit_edge.h"
-#include "support/incidence.h"
 #include "surface/elements/quads/quad_patch.h"
 #include "surface/elements/quads/thresholds.h"
 
@@ -34,13 +33,6 @@ class WorstQuads {
   }
 
  private:
-  // Triangles name their first corner twice.
-  static std::vector<MixedCell> closed(std::vector<MixedCell> cells) {
-    for (MixedCell& cell : cells)
-      if (cell[3] < 0) cell[3] = cell[0];
-    return cells;
-  }
-
   std::vector<std::int32_t> corners_of_bad() {
     std::vector<std::pair<double, std::int32_t>> bad;
     const std::vector<MixedCell>& cells = quads_.cells();
@@ -71,7 +63,7 @@ class WorstQuads {
     if (in_vain_[v] != 0) return false;
     in_vain_[v] = 1;
     star_.clear();
-    if (!around_) around_.emplace(quads_.vertices(), closed(quads_.cells()));
+    if (!around_) around_ = cells_around(quads_.vertices(), quads_.cells());
     for (const std::int32_t c : around_->of(v)) star_.emplace_back(c, quads_.about(quads_.cells()[c]));
     const double start = worst_around(-2);
     if (start >= good_) return false;

@@ -140,12 +140,7 @@ double CrossPatchMesh::double_area(const EditableMesh::Triangle& t) const {
 }
 
 void CrossPatchMesh::judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
-  const double quality =
-      by_direction() ? quality_q2(gram_of(a, b, c)) : quality_q2(place_[a].xyz, place_[b].xyz, place_[c].xyz);
-  shapes.worst = std::min(shapes.worst, quality);
-  shapes.inverses += 1 / std::max(quality, flat_quality);
-  shapes.sum += quality;
-  ++shapes.count;
+  shapes.add(by_direction() ? quality_q2(gram_of(a, b, c)) : quality_q2(place_[a].xyz, place_[b].xyz, place_[c].xyz));
 }
 
 void CrossPatchMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {

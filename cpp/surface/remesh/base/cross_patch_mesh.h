@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/change.h"
 #include "mesh/editable_mesh.h"
 #include "mesh/trial.h"
 #include "support/infinity.h"
@@ -30,15 +31,6 @@ struct SurfaceTolerances {
 
   /// A0 for triangles or edges of size h.
   [[nodiscard]] double deviation_at(double h) const noexcept { return deviation > 0 ? deviation : share_of_size * h; }
-};
-
-/// Sums of the shapes of some triangles.
-struct TriangleShapes {
-  double worst = 1;      ///< Q2 in the metric
-  double inverses = 0;   ///< sum of 1 / Q2
-  double sum = 0;        ///< of Q2
-  int count = 0;
-  double share = 0;      ///< the largest square of A0 or A1 over its tolerance, by the normals at the corners
 };
 
 /// The loss of shapes that collapses between sharp lines may cause. Costs are sums of differences of Q2; triangles that go count against a

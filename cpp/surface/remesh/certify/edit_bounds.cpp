@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "support/shares.h"
-#include "surface/remesh/bounds/pole.h"
+#include "surface/remesh/bounds/chart_map.h"
 #include "surface/remesh/bounds/spread_places.h"
 #include "surface/remesh/bounds/thresholds.h"
 #include "surface/remesh/certify/thresholds.h"
@@ -21,63 +21,31 @@ using thresholds::certify::within;
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// A triangle in (u, v): its sides are parabolas over their chords, by the derivatives at their ends, or straight ways to a pole.
-class ChartMap {
- public:
-  ChartMap(const std::array<SurfacePlace, 3>& corner, const std::array<bool, 3>& on_line) : corner_(corner) {
-    int regular = 0;
-    for (int i = 0; i < 3; ++i) corner[i].regular ? ++regular : pole_ = i;
-    if (regular < 2) pole_ = -1;
-    if (pole_ >= 0) arrive();
-    const Vec2 ab = uv(1) - uv(0), ac = uv(2) - uv(0);
-    const double area = cross(ab, ac);
-    for (int i = 0; i < 3 && regular == 3; ++i)
-      if (!on_line[i]) bulge_[i] = bulge(corner[i], corner[(i + 1) % 3], ab, ac, area);
+void arrive(const std::array<SurfacePlace, 3>& corner, ChartMap& map) {
+  const SurfacePlace& pole = corner[map.pole];
+  std::array<Vec2, 2> box{pole.foot.uv, pole.foot.uv};
+  for (const SurfacePlace& p : corner) box = {box[0].cwiseMin(p.foot.uv), box[1].cwiseMax(p.foot.uv)};
+  for (int k = 0; k < 2; ++k) {
+    const SurfacePlace& from = corner[(map.pole + 1 + k) % 3];
+    map.arrival[k] = arrival_at_pole(pole.foot.uv, {pole.su, pole.sv}, from.foot.uv, {from.su, from.sv}, pole.xyz - from.xyz, box);
   }
+}
 
-  [[nodiscard]] Vec2 at(const PlaceInTriangle& place) const {
-    const std::array<double, 3> w{1 - place.x() - place.y(), place.x(), place.y()};
-    if (pole_ < 0) {
-      Vec2 p = w[0] * uv(0) + w[1] * uv(1) + w[2] * uv(2);
-      for (int i = 0; i < 3; ++i) p += 4 * w[i] * w[(i + 1) % 3] * bulge_[i];
-      return p;
-    }
-    const int j = (pole_ + 1) % 3, k = (pole_ + 2) % 3;
-    const double rest = w[j] + w[k], share = rest > 0 ? w[k] / rest : 0.5;
-    return w[pole_] * lerp(arrival_[0], arrival_[1], share) + w[j] * uv(j) + w[k] * uv(k);
+ChartMap map_of(const std::array<SurfacePlace, 3>& corner, const std::array<bool, 3>& on_line) {
+  ChartMap map{{corner[0].foot.uv, corner[1].foot.uv, corner[2].foot.uv}, {}, -1, {}};
+  int regular = 0;
+  for (int i = 0; i < 3; ++i) corner[i].regular ? ++regular : map.pole = i;
+  if (regular < 2) map.pole = -1;
+  if (map.pole >= 0) arrive(corner, map);
+  const Vec2 ab = map.corner[1] - map.corner[0], ac = map.corner[2] - map.corner[0];
+  for (std::size_t i = 0; i < 3 && regular == 3; ++i) {
+    if (on_line[i]) continue;
+    const SurfacePlace &p = corner[i], &q = corner[(i + 1) % 3];
+    const Vec2 bulge = bulge_over_chord(q.foot.uv - p.foot.uv, {p.su, p.sv}, {q.su, q.sv}), inside = part_inside(bulge, ab, ac) * bulge;
+    if (is_finite(inside)) map.bulge[i] = inside;
   }
-
- private:
-  [[nodiscard]] const Vec2& uv(int i) const { return corner_[i].foot.uv; }
-
-  void arrive() {
-    const SurfacePlace& pole = corner_[pole_];
-    std::array<Vec2, 2> box{uv(pole_), uv(pole_)};
-    for (const SurfacePlace& p : corner_)
-      for (int i = 0; i < 2; ++i) box[0][i] = std::min(box[0][i], p.foot.uv[i]), box[1][i] = std::max(box[1][i], p.foot.uv[i]);
-    for (int k = 0; k < 2; ++k) {
-      const SurfacePlace& from = corner_[(pole_ + 1 + k) % 3];
-      arrival_[k] = arrival_at_pole(pole.foot.uv, {pole.su, pole.sv}, from.foot.uv, {from.su, from.sv}, pole.xyz - from.xyz, box);
-    }
-  }
-
-  // The offset of the middle of the image from the middle of the chord; weights change by a quarter at most.
-  static Vec2 bulge(const SurfacePlace& p, const SurfacePlace& q, const Vec2& ab, const Vec2& ac, double area) {
-    const Vec2 way = q.foot.uv - p.foot.uv;
-    const Vec3 su = 0.5 * (p.su + q.su), sv = 0.5 * (p.sv + q.sv);
-    const Vec3 off = ((way.x() * (q.su - p.su)) + (way.y() * (q.sv - p.sv))) / 8;
-    const double e = dot(su, su), f = dot(su, sv), g = dot(sv, sv), x = dot(su, off), y = dot(sv, off), det = e * g - f * f;
-    const Vec2 bulge{(g * x - f * y) / det, (e * y - f * x) / det};
-    const double b = cross(bulge, ac) / area, d = cross(ab, bulge) / area, most = std::max({std::abs(b), std::abs(d), std::abs(b + d)});
-    const double part = most > 0.25 ? 0.25 / most : 1;
-    return is_finite(bulge) && std::isfinite(most) ? Vec2(part * bulge) : Vec2(0, 0);
-  }
-
-  const std::array<SurfacePlace, 3>& corner_;
-  int pole_ = -1;
-  std::array<Vec2, 3> bulge_{Vec2(0, 0), Vec2(0, 0), Vec2(0, 0)};
-  std::array<Vec2, 2> arrival_;
-};
+  return map;
+}
 
 }  // namespace
 
@@ -113,7 +81,7 @@ BoundedTriangle EditBounds::flat(const Corners& corners) const {
 }
 
 TriangleBound EditBounds::bound_in_chart(const Corners& corners, std::int32_t face, const BoundedTriangle& flat) {
-  const ChartMap map(corners.place, flat.open_side);
+  const ChartMap map = map_of(corners.place, flat.open_side);
   std::vector<Vec2> uv;
   std::vector<SurfaceJet> jets;
   std::vector<BoundPlace> seen;

@@ -11,17 +11,6 @@
 
 namespace carreau {
 
-struct Change {
-  TriangleShapes before, after;
-
-  /// No triangle is worse than `least` unless a triangle before was as bad.
-  [[nodiscard]] bool keeps_shapes(double least) const noexcept { return after.worst >= std::min(before.worst, least); }
-  /// No triangle exceeds the tolerances of A0 and A1 unless a triangle before did as much. `most`: largest share, squared.
-  [[nodiscard]] bool keeps_surface(double most = 1) const noexcept {
-    return after.share < infinity && after.share <= std::max(most, before.share);
-  }
-};
-
 [[nodiscard]] inline bool has_corner(const EditableMesh::Triangle& t, std::int32_t v) noexcept {
   return t[0] == v || t[1] == v || t[2] == v;
 }

@@ -81,10 +81,7 @@ TriangleShapes VertexMover::shapes(const Vec3& at) const {
   for (const Side& s : sides_) {
     const Vec3 p = s.a - at, q = s.b - at;
     const double squares = dot(p, p) + dot(q, q) + s.squared;
-    const double quality = squares > 0 ? 4 * half_root3 * norm(cross(p, q)) / squares : 0;
-    shapes.worst = std::min(shapes.worst, quality);
-    shapes.inverses += 1 / std::max(quality, flat_quality);
-    shapes.sum += quality;
+    shapes.add(squares > 0 ? 4 * half_root3 * norm(cross(p, q)) / squares : 0);
   }
   return shapes;
 }
