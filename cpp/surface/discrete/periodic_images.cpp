@@ -295,6 +295,8 @@ class Maker {
 }  // namespace
 
 double share_sizes(const PeriodicTriangles& periodic, const SurfaceMesh& mesh, std::span<double> size) {
+  const auto [smallest, largest] = std::ranges::minmax_element(size);
+  if (size.empty() || *smallest == *largest) return 1;
   double least = 1;
   const auto lower = [&](std::int32_t v, double h, bool on_line) {
     if (on_line) least = std::min(least, h / size[v]);

@@ -164,11 +164,17 @@ class Finder {
 
   [[nodiscard]] std::vector<std::int32_t> ends_of_parts(const TriangleSearch& lines) const {
     std::vector<std::int32_t> ends;
+    BoxTree::Box of_lines;
+    for (const CurveMesh& curve : mesh_.curves)
+      for (const std::int32_t v : curve.vertices) of_lines.add(mesh_.vertices[v]);
+    const auto is_on_lines = [&](const Vec3& p) {
+      return norm(p - p.cwiseMax(of_lines.low).cwiseMin(of_lines.high)) <= result_.gap && lines.nearest(p).distance <= result_.gap;
+    };
     for (const Isometry& map : maps_)
       for (const CurveMesh& curve : mesh_.curves) {
         const std::vector<std::int32_t> chain = given_of(curve);
         std::vector<char> is_carried;
-        for (const std::int32_t v : chain) is_carried.push_back(lines.nearest(map(mesh_.vertices[v])).distance <= result_.gap ? 1 : 0);
+        for (const std::int32_t v : chain) is_carried.push_back(is_on_lines(map(mesh_.vertices[v])) ? 1 : 0);
         for (std::size_t k = 1; k < is_carried.size(); ++k)
           if (is_carried[k] != is_carried[k - 1]) ends.push_back(chain[is_carried[k] != 0 ? k : k - 1]);
       }
@@ -205,9 +211,11 @@ class Finder {
   // Pairs of faces, else pairs of open borders.
   void add_found(const Isometry& map) {
     std::size_t found = 0;
-    for (int m = 0; m < std::ssize(mesh_.faces); ++m)
+    for (int m = 0; m < std::ssize(mesh_.faces); ++m) {
+      const BoxTree::Box image = image_box(m, map);
       for (int s = 0; s < std::ssize(mesh_.faces); ++s)
-        if (s != m && box_distance(m, s, map) <= result_.gap && add_face(m, s, map)) ++found;
+        if (s != m && box_distance(m, image, s) <= result_.gap && add_face(m, s, map)) ++found;
+    }
     const bool borders = found == 0;
     for (int c = 0; c < std::ssize(mesh_.curves) && borders; ++c)
       if (mesh_.curves[c].uses.size() == 1) found += add_border(c, map) ? 1 : 0;
@@ -223,10 +231,14 @@ class Finder {
     return false;
   }
 
-  [[nodiscard]] double box_distance(int master, int slave, const Isometry& map) const {
-    if (lines_of_[master].empty() || lines_of_[slave].empty()) return infinity;
+  [[nodiscard]] BoxTree::Box image_box(int face, const Isometry& map) const {
     BoxTree::Box image;
-    for (const std::int32_t v : mesh_.faces[master].vertex) image.add(map(mesh_.vertices[v]));
+    for (const std::int32_t v : mesh_.faces[face].vertex) image.add(map(mesh_.vertices[v]));
+    return image;
+  }
+  // `image`: the box of the master's image.
+  [[nodiscard]] double box_distance(int master, const BoxTree::Box& image, int slave) const {
+    if (lines_of_[master].empty() || lines_of_[slave].empty()) return infinity;
     return std::max(norm(image.low - boxes_[slave].low), norm(image.high - boxes_[slave].high));
   }
 
@@ -289,9 +301,11 @@ class Finder {
   [[nodiscard]] std::string nearest_miss(const Isometry& map) const {
     double nearest = infinity;
     int master = -1, slave = -1;
-    for (int m = 0; m < std::ssize(mesh_.faces); ++m)
+    for (int m = 0; m < std::ssize(mesh_.faces); ++m) {
+      const BoxTree::Box image = image_box(m, map);
       for (int s = 0; s < std::ssize(mesh_.faces); ++s)
-        if (const double miss = s == m ? infinity : box_distance(m, s, map); miss < nearest) nearest = miss, master = m, slave = s;
+        if (const double miss = s == m ? infinity : box_distance(m, image, s); miss < nearest) nearest = miss, master = m, slave = s;
+    }
     return master < 0 ? "it has no two faces with lines" : "nearest is face " + std::to_string(ref(slave)) + ": " + why_not(master, slave, map);
   }
 
