@@ -8,6 +8,7 @@
 #include "carreau.h"
 #include "guard.h"
 #include "mesh/crossings/intersections.h"
+#include "high_order/curved_quality.h"
 #include "mesh/defects/flat_defects.h"
 #include "mesh/quality.h"
 #include "mesh/regions.h"
@@ -77,9 +78,11 @@ carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t 
     carreau::DefectOptions options;
     options.closed = closed != 0;
     options.limit = std::size_t(limit);
+    std::vector<std::string> of_elements;
+    if (mesh->curved) of_elements = carreau::find_curved_defects(*mesh->curved);
     const std::vector<std::string> defects = mesh->session != nullptr
                                                  ? carreau::find_defects(surface_of(*mesh), options)
-                                                 : carreau::find_defects(mesh->flat, options);
+                                                 : carreau::find_defects(mesh->flat, options, mesh->curved ? &of_elements : nullptr);
     std::string text;
     for (const std::string& defect : defects) text += (text.empty() ? "" : "\n") + defect;
     mesh->text = std::move(text);

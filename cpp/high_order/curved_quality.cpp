@@ -2,6 +2,7 @@
 #include "high_order/curved_quality.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "high_order/thresholds.h"
@@ -53,28 +54,51 @@ struct Tangents {
   }
 };
 
+/// Calls use(shape, nodes) for each element: triangles, then quadrilaterals.
+template <typename Use>
+void for_elements(const HighOrderMesh& mesh, const Use& use) {
+  for (const bool quad : {false, true}) {
+    const std::vector<std::int32_t>& rows = quad ? mesh.quads : mesh.triangles;
+    if (rows.empty()) continue;
+    const ElementShape shape(quad, mesh.order, mesh.places);
+    std::vector<Vec3> x(shape.node_count());
+    for (std::size_t row = 0; row < rows.size(); row += x.size()) {
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] = mesh.nodes[rows[row + i]];
+      use(shape, x);
+    }
+  }
+}
+
+bool is_valid(double least) { return least >= thresholds::high_order::least_jacobian; }
+
 }  // namespace
 
 CurvedQuality measure_curved(const HighOrderMesh& mesh) {
   CurvedQuality quality;
   double sum = 0;
   std::size_t count = 0;
-  for (const bool quad : {false, true}) {
-    const std::vector<std::int32_t>& rows = quad ? mesh.quads : mesh.triangles;
-    if (rows.empty()) continue;
-    const ElementShape shape(quad, mesh.order, mesh.places);
-    const Tangents tangents(shape);
-    std::vector<Vec3> x(shape.node_count());
-    for (std::size_t row = 0; row < rows.size(); row += x.size(), ++count) {
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] = mesh.nodes[rows[row + i]];
-      const double least = shape.least_jacobian(x);
-      sum += least, quality.least_jacobian_min = std::min(quality.least_jacobian_min, least);
-      if (!(least >= thresholds::high_order::least_jacobian)) ++quality.invalid;
-      quality.area += tangents.area(x);
-    }
-  }
+  std::optional<Tangents> tangents;
+  bool of_quads = false;
+  for_elements(mesh, [&](const ElementShape& shape, const std::vector<Vec3>& x) {
+    if (!tangents || shape.is_quad() != of_quads) tangents.emplace(shape), of_quads = shape.is_quad();
+    const double least = shape.least_jacobian(x);
+    sum += least, ++count, quality.least_jacobian_min = std::min(quality.least_jacobian_min, least);
+    if (!is_valid(least)) ++quality.invalid;
+    quality.area += tangents->area(x);
+  });
   if (count > 0) quality.least_jacobian_mean = sum / static_cast<double>(count);
   return quality;
+}
+
+std::vector<std::string> find_curved_defects(const HighOrderMesh& mesh) {
+  std::vector<std::string> defects;
+  std::size_t element = 0;
+  for_elements(mesh, [&](const ElementShape& shape, const std::vector<Vec3>& x) {
+    if (!is_valid(shape.least_jacobian(x)))
+      defects.push_back("element " + std::to_string(element) + " of order " + std::to_string(mesh.order) + ": its Jacobian is not positive everywhere");
+    ++element;
+  });
+  return defects;
 }
 
 }  // namespace carreau

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "high_order/high_order_mesh.h"
 
@@ -16,5 +18,8 @@ struct CurvedQuality {
 };
 
 CurvedQuality measure_curved(const HighOrderMesh& mesh);
+
+/// Returns one sentence for each invalid element, judged by all of its nodes. Triangles come before quadrilaterals; indices are from 0.
+std::vector<std::string> find_curved_defects(const HighOrderMesh& mesh);
 
 }  // namespace carreau

@@ -154,6 +154,7 @@ constexpr std::array kTable = {
     real_row("sharp_angle", 0, 180, 1, "patches independent: borders whose normals differ by more are sharp, degrees"),
     integer_row("sol_field", 0, 64, 0,
                 "field of a .sol or .solb with several, from 1 (0: all fields that an adaptation estimates, else the only one)"),
+    integer_row("solid_groups", 0, 1, 1, "1: .msh files have groups of solids, for volumes that Gmsh makes; 0: none, since dolfinx rejects groups without elements"),
     integer_row("stagger_strips", 0, 1, 0,
                 "1: vertices of one side of a strip of one layer face the middles of the other side's edges"),
     integer_row("threads", 0, 1024, 1, "threads at work, 0: one for each processor; the mesh does not depend on it"),

@@ -225,16 +225,19 @@ class MshText {
     return association_->parameters(dim, static_cast<std::int32_t>(v), ref);
   }
 
+  // The names of faces come last: libMesh keeps one name for each number, the last one, whatever its dimension.
   void add_names() {
-    std::map<std::pair<int, int>, std::string> names;
-    for (const int dim : {0, 1, 2})
-      for (const auto& [ref, entity] : entities_[dim]) names.emplace(std::pair{dim, entity.physical}, entity.name);
-    if (!version_2_)
-      for (const auto& [ref, solid] : solids_) names.emplace(std::pair{3, solid.physical}, solid.name);
-    text_ += "$PhysicalNames\n" + std::to_string(names.size()) + "\n";
-    for (const auto& [key, name] : names)
-      text_ += std::to_string(key.first) + " " + std::to_string(key.second) + " \"" + name + "\"\n";
-    text_ += "$EndPhysicalNames\n";
+    std::size_t count = 0;
+    std::string lines;
+    const auto add = [&](int dim, const Entities& entities) {
+      std::map<int, std::string> names;
+      for (const auto& [ref, entity] : entities) names.emplace(entity.physical, entity.name);
+      for (const auto& [physical, name] : names) lines += std::to_string(dim) + " " + std::to_string(physical) + " \"" + name + "\"\n";
+      count += names.size();
+    };
+    if (!version_2_) add(3, solids_);
+    for (const int dim : {0, 1, 2}) add(dim, entities_[dim]);
+    text_ += "$PhysicalNames\n" + std::to_string(count) + "\n" + lines + "$EndPhysicalNames\n";
   }
 
   void add_coordinates(std::size_t v, std::span<const double> parameters = {}) {

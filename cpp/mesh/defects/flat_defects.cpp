@@ -17,12 +17,12 @@ class FlatDefectFinder {
  public:
   FlatDefectFinder(const FlatMesh& mesh, const DefectOptions& options) : mesh_(mesh), options_(options) {}
 
-  std::vector<std::string> run() {
+  std::vector<std::string> run(const std::vector<std::string>* of_elements) {
     check_lists();
     check_vertices();
     check_indices();
     if (!defects_.empty()) return std::move(defects_);  // the checks below need sound indices
-    for (const std::string& sentence : find_cell_defects(mesh_)) add(sentence);
+    for (const std::string& sentence : of_elements != nullptr ? *of_elements : find_cell_defects(mesh_)) add(sentence);
     check_triangles();
     check_duplicates();
     check_unused();
@@ -157,8 +157,8 @@ class FlatDefectFinder {
 
 }  // namespace
 
-std::vector<std::string> find_defects(const FlatMesh& mesh, const DefectOptions& options) {
-  return FlatDefectFinder(mesh, options).run();
+std::vector<std::string> find_defects(const FlatMesh& mesh, const DefectOptions& options, const std::vector<std::string>* of_elements) {
+  return FlatDefectFinder(mesh, options).run(of_elements);
 }
 
 }  // namespace carreau

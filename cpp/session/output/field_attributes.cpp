@@ -12,7 +12,7 @@ namespace {
 
 // Parameters that do not change a mesh.
 bool leaves_mesh(std::string_view parameter) {
-  constexpr std::array names{"association", "curve_groups", "element", "flag", "format", "option", "pref", "refs", "threads", "verb"};
+  constexpr std::array names{"association", "curve_groups", "element", "flag", "format", "option", "pref", "refs", "solid_groups", "threads", "verb"};
   return std::find(names.begin(), names.end(), parameter) != names.end();
 }
 

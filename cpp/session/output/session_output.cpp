@@ -169,7 +169,9 @@ FlatMesh Session::exported_as(MeshFormat format) {
   if (format == MeshFormat::vtu && (state_->delivered || state_->parameters.integer("measure") != 0))
     measures = &delivered();
   state_->monitor.progress(Phase::writing, 0, 1);
-  return exported(measures, format == MeshFormat::vtu);
+  FlatMesh mesh = exported(measures, format == MeshFormat::vtu);
+  if (format == MeshFormat::msh && state_->parameters.integer("solid_groups") == 0) mesh.names.face_solids.clear();
+  return mesh;
 }
 
 MeshFileOptions Session::file_options(MeshFormat format, MeshAssociation& association) const {

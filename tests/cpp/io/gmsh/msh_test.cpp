@@ -212,6 +212,27 @@ TEST(Msh, CurvesAndCornersAreLeftOutWithoutTheirGroups) {
   }
 }
 
+// libMesh keeps one name for each number: the last one.
+TEST(Msh, NamesOfFacesComeAfterOtherNamesOfTheirNumbers) {
+  FlatMesh mesh = named_square();
+  mesh.edge_refs.assign(mesh.edge_refs.size(), 3), mesh.vertex_refs[0] = 7;
+  mesh.names.face_solids = {{3, {3, 0}}, {7, {7, 0}}};
+  for (const MeshFormat format : {MeshFormat::msh2, MeshFormat::msh}) {
+    auto words = section(mesh_bytes(mesh, format), "PhysicalNames");
+    int count = 0, dim = 0, tag = 0;
+    words >> count;
+    std::map<int, int> last;
+    std::string name;
+    for (int i = 0; i < count; ++i) {
+      words >> dim >> tag;
+      std::getline(words, name);
+      last[tag] = dim;
+    }
+    EXPECT_EQ(count, format == MeshFormat::msh ? 6 : 4);
+    EXPECT_EQ(last, (std::map<int, int>{{3, 2}, {7, 2}}));
+  }
+}
+
 TEST(Msh, FacesOfOneNameAreOneGroup) {
   FlatMesh mesh = named_square();
   mesh.faces[0].name = mesh.faces[1].name = "wall";
