@@ -175,9 +175,11 @@ class FaceMender : public Mender<FaceMender, Vec2> {
       const double found = score(cells()[c]);
       if (invalid.count++ == 0) sides = curve_sides(work_, f_);
       if (found < least) least = found, invalid.uv = middle(cells()[c]);
-      add_coarse(cells()[c], sides, report.coarse);
+      InvalidElement element{.face = f_};
+      add_coarse(cells()[c], sides, element.coarse);
       add_cusps(cells()[c], sides, report.cusps);
-      add_finer(cells()[c], report.finer[f_]);
+      add_finer(cells()[c], element.sides);
+      report.elements.push_back(std::move(element));
       if (c < face_.quads) report.quads[f_].push_back(c);
     }
     std::sort(report.quads[f_].begin(), report.quads[f_].end());
