@@ -121,12 +121,17 @@ class FaultRequests {
     for (std::size_t f = 0; f < run_.turned_at_rows.size(); ++f)
       for (const std::array<Vec3, 3>& corners : run_.turned_at_rows[f]) (void)retreat(static_cast<int>(f), corners);
   }
-  // Cells of rows are regular. If a triangle that is no such cell crosses one, it has the fault.
-  void add(const Crossings& crossings) {
-    const RowCells rows(run_);
+  // Smaller triangles part faces that are apart. Cells of rows are regular: if another triangle crosses one, it has the fault.
+  void add(const Crossings& crossings, FacePairs& meeting, double budget) {
     const CurveEdges edges(crossings.mesh(), run_.curves);
+    const CrossingRequests walls = find_requests(run_, crossings, meeting);
+    add(plan_requests(run_, crossings, walls, budget), edges);
+    FacePairs apart;
+    for (const CrossingRequest& request : walls.requests) apart.insert(request.faces);
+    const RowCells rows(run_);
     std::set<std::int32_t> faulty;
     for (const TriangleIntersection& pair : crossings.found.pairs) {
+      if (apart.contains(std::minmax(crossings.origin(pair.triangles[0]).first, crossings.origin(pair.triangles[1]).first))) continue;
       const std::array<bool, 2> regular{rows.holds(crossings.origin(pair.triangles[0])), rows.holds(crossings.origin(pair.triangles[1]))};
       for (std::size_t k = 0; k < 2; ++k)
         if (!regular[k] || regular[1 - k]) faulty.insert(pair.triangles[k]);
@@ -153,6 +158,17 @@ class FaultRequests {
     return limit_rows_at(face, corners, divisor_, run_.layer_cells[f],
                          [&](std::int32_t v) { return run_.result.mesh.vertices[static_cast<std::size_t>(mesh.vertex[static_cast<std::size_t>(v)])]; },
                          has_quads_only(run_.options.element), requests_.rows);
+  }
+
+  // Sizes of cells that are cut are twice as large.
+  void add(const RefinementPlan& plan, const CurveEdges& edges) {
+    for (std::size_t f = 0; f < plan.sources.size(); ++f)
+      for (EdgeSizes::Source source : plan.sources[f]) {
+        source.h *= enlargement_for(run_.options.element);
+        requests_.sizes[f].push_back(source);
+      }
+    for (const auto& [v, w] : plan.edges)
+      if (const SegmentOfCurve* segment = edges.find(v, w)) coarse_.push_back({segment->curve, segment->segment});
   }
 
   void add(const Crossings& crossings, const CurveEdges& edges, std::int32_t t) {
@@ -247,7 +263,7 @@ class ElementInspector final : public Inspector {
   std::optional<RefinementRequests> retreat(const CompositeRun& run) {
     FaultRequests collected(run, round_++ == 0 ? 2 : 0);
     for (const InvalidElement& element : now_.elements) collected.add(element);
-    if (crossings_) collected.add(*crossings_);
+    if (crossings_) collected.add(*crossings_, meeting_, *left_ / thresholds::crossings::work_of_varied_sizes);
     collected.add_turned();
     std::set<int> faces;
     RefinementRequests requests = collected.take(faces);
@@ -273,6 +289,7 @@ class ElementInspector final : public Inspector {
   double work_ = 0, cost_ = 0;  // of the first mesh, of the next round
   KnownQuads known_;
   std::optional<Crossings> crossings_;
+  FacePairs meeting_;
   Intersections kept_;
 };
 
