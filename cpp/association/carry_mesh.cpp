@@ -352,7 +352,7 @@ class Carrier {
       if (!old.faces[f].mid.empty()) carry_face_nodes(f, fine, on_curve);
     const ElementWork work{to_, curves_to_, rules_, options_, out_, monitor_};
     QuadraticReport report;
-    report.finer.resize(mesh.faces.size()), report.quads.resize(mesh.faces.size());
+    report.quads.resize(mesh.faces.size());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
       if (!mesh.faces[f].mid.empty()) find_invalid(work, f, report);
     return report.invalid.empty() || discard_nodes();

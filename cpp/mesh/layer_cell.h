@@ -14,6 +14,7 @@ struct LayerCell {
   std::int32_t layers = 0;                              ///< index of the layers that it belongs to
   std::int32_t row = 0;                                 ///< from 0, which touches the curve
   [[nodiscard]] bool is_triangle() const noexcept { return corners[3] < 0; }
+  friend bool operator==(const LayerCell&, const LayerCell&) = default;
 };
 
 }  // namespace carreau

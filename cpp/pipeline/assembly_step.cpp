@@ -84,7 +84,7 @@ void report_remarks(CompositeRun& run) {
     if (mesh.status != FaceStatus::meshed && mesh.status != FaceStatus::mended) continue;
     mesh.status = FaceStatus::mended;
     mesh.why += (mesh.why.empty() ? "" : "; ") + what;
-    run.report(Level::warning, what);
+    if (!run.may_lose_rows()) run.report(Level::warning, what);
   }
 }
 

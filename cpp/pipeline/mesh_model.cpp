@@ -61,28 +61,26 @@ Topology with_places(Topology topology, const std::vector<std::pair<int, Vec3>>&
 
 LayerCurves layer_curves(const Model& model, const Topology& topology, const std::vector<CurveLayers>& given,
                          const CompositeOptions& options) {
-  return {model, topology, given, has_quads_only(options.element)};
+  return {model, topology, given, has_quads_only(options.element), has_quads_only(options.element) || is_quadratic(options.element)};
 }
 
 bool any_prescribed(const CompositeRun& run) {
   return std::any_of(run.curves.begin(), run.curves.end(), [](const DiscreteCurve& c) { return c.prescribed; });
 }
 
-// Crossings first: elements are made of the triangles that are left.
+// Crossings first: elements are made of the triangles that are left. With layers, one inspector finds all faults beside rows.
 std::vector<std::unique_ptr<Inspector>> inspectors_of(CompositeRun& run) {
   std::vector<std::unique_ptr<Inspector>> inspectors;
   if (run.options.crossing_rounds > 0 && !run.periodic.pairs.empty())
     inspectors.push_back(make_periodic_inspector());
-  if (run.options.crossing_rounds > 0) inspectors.push_back(make_crossing_inspector());
+  if (run.options.crossing_rounds > 0 && run.layers.empty()) inspectors.push_back(make_crossing_inspector());
   if (run.options.independent && any_prescribed(run))
     run.report(Level::warning, "no cross-patch remeshing: edges of curves are prescribed");
   else if (run.options.independent && !run.layers.empty())
     run.report(Level::warning, "no cross-patch remeshing: layers grow from curves");
   else if (run.options.independent)
     inspectors.push_back(make_cross_patch_inspector());
-  if (!run.layers.empty())
-    inspectors.push_back(make_row_inspector());
-  else if (run.options.element != Element::p1)
+  if (!run.layers.empty() || run.options.element != Element::p1)
     inspectors.push_back(make_element_inspector());
   return inspectors;
 }

@@ -25,7 +25,8 @@ void begin_again(CompositeRun& run) {
 void mesh_discretised(CompositeRun& run) {
   refine_boundaries(run);
   if (run.may_have_rounds()) run.cut_curves = run.curves;
-  run.layer_cells.clear();
+  run.layer_cells.clear(), run.turned_at_rows.clear();
+  run.layers.find_bulges(run.curve_model, run.curves);
   mesh_patches(run);
   assemble_patches(run);
 }
@@ -137,11 +138,11 @@ void MeshRounds::put_aside() {
   run_.result.graded = before.graded, run_.result.report = before.report;
   if (best_) {
     spaces_ = std::move(before.spaces);
-    run_.known.rely_on(&spaces_);
+    run_.known.rely_on(&spaces_, run_.halved);
     return;
   }
-  best_.emplace(Kept{std::move(before), run_.curves, run_.cut_curves, run_.finer, run_.layer_cells});
-  run_.known.rely_on(&best_->result.spaces);
+  best_.emplace(Kept{std::move(before), run_.curves, run_.cut_curves, run_.finer, run_.layer_cells, run_.remarks});
+  run_.known.rely_on(&best_->result.spaces, run_.halved);
 }
 
 void MeshRounds::apply(const RefinementRequests& requests) {
@@ -172,6 +173,7 @@ void MeshRounds::restore(bool keeps_patches) {
     run_.curves = std::move(best_->curves), run_.cut_curves = std::move(best_->cut_curves);
     run_.finer = std::move(best_->finer);
     run_.layer_cells = std::move(best_->layer_cells);
+    run_.remarks = std::move(best_->remarks);
     best_.reset();
   }
   run_.trying = false;

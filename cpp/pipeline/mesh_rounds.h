@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pipeline/base/inspector.h"
@@ -31,6 +33,7 @@ class MeshRounds {
     std::vector<DiscreteCurve> curves, cut_curves;
     std::vector<std::vector<EdgeSizes::Source>> finer;
     std::vector<std::vector<LayerCell>> layer_cells;
+    std::map<std::size_t, std::string> remarks;
   };
 
   void mesh();

@@ -85,6 +85,8 @@ void keep_patch(PatchJobs& work, std::size_t f, FaceOutcome& outcome) {
   if (!outcome.layers.empty() || !run.layer_cells.empty()) {
     run.layer_cells.resize(run.model.faces.size());
     run.layer_cells[f] = std::move(outcome.layers);
+    run.turned_at_rows.resize(run.model.faces.size());
+    run.turned_at_rows[f] = std::move(outcome.turned);
   }
   run.keeper[f] = outcome.elsewhere ? outcome.elsewhere->rank : all_have;
   if (!outcome.remark.empty()) run.remarks[f] = outcome.remark;
@@ -100,6 +102,7 @@ bool keep_known(PatchJobs& work, std::size_t f, const PatchInput& input, const s
   if (!known) return false;
   work.run.result.spaces[f] = std::move(known->space);
   keep_patch(work, f, *known);
+  work.run.is_known[f] = 1;
   return true;
 }
 
@@ -256,6 +259,8 @@ void place_narrow_patches(CompositeRun& run) {
 void mesh_patches(CompositeRun& run) {
   start_result(run);
   run.remarks.clear();
+  run.halved = false;
+  run.is_known.assign(run.model.faces.size(), 0);
   run.patches.assign(run.model.faces.size(), std::nullopt);
   run.keeper.assign(run.model.faces.size(), no_process);
   place_narrow_patches(run);

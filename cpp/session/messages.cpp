@@ -167,7 +167,7 @@ void describe_bare_edges(std::span<const BareEdges> layers, Monitor& monitor) {
     const BareEdges& edges = layers[i];
     if (edges.bare == 0 || edges.bare == edges.sides) continue;  // describe_layers() reports that no row has room
     monitor.message(Level::warning, "layers" + (layers.size() > 1 ? " " + std::to_string(i + 1) : std::string()) + ": " +
-                                        std::to_string(edges.bare) + " of " + std::to_string(edges.sides) + " edges have no row: " +
+                                        std::to_string(edges.bare) + " of " + std::to_string(edges.sides) + (edges.bare == 1 ? " edges has no row: " : " edges have no row: ") +
                                         list_of(edges.curves));
   }
 }

@@ -5,6 +5,7 @@ sentence for each mistake."""
 import json
 import math
 import os
+import re
 import shutil
 import signal
 import stat
@@ -292,6 +293,33 @@ class VolumeTest(WorkFolder):
         self.assertRegex(sentence, r"pairs of triangles cross; faces \d+ and \d+: ")
         self.assertFalse(os.path.exists(self.path("started")))
         self.assertEqual([name for name in os.listdir(self.folder) if name.startswith("x.")], [])
+
+    def test_shells_with_material_on_the_wrong_side_are_named(self):
+        corners, triangles = box((0, 0, 0), (4, 4, 4))
+        inner, outward = box((1, 1, 1), (3, 3, 3), 8)
+        self.write("nested.off", off(corners + inner, triangles + outward))
+        sentence = self.failure("volume", "nested.off", "-o", "nested.mesh", "--size", "20%", "--engine", ENGINES[0])
+        self.assertRegex(sentence, r"the shell of faces? [\d, ]+(and \d+ more )?at \([123, ]+\) of solid 2 lies inside solid 1, which has no cavity there")
+        self.assertNotIn("did not fill", sentence)
+
+    def test_reversed_shells_are_named(self):
+        self.make_shapes()
+        gmsh = shape_maker(self)
+        gmsh.model.occ.cut([(3, gmsh.model.occ.addBox(0, 0, 0, 4, 4, 4))], [(3, gmsh.model.occ.addBox(1, 1, 1, 2, 2, 2))])
+        gmsh.model.occ.synchronize()
+        gmsh.write(self.path("hollow.brep"))
+        gmsh.finalize()
+        with open(self.path("hollow.brep")) as file:
+            text = file.read()
+        head, shells, tail = re.fullmatch(r"(.*\nSo\n\n\d{7}\n)(.*?)(\*.*)", text, re.S).groups()
+        self.assertEqual(self.volume("hollow.brep", "-o", "hollow.mesh", "--size", "20%", "--engine", ENGINES[0])["engine"], ENGINES[0])
+        first, outer, second, inner = re.fullmatch(r"([+-])(\d+ 0 )([+-])(\d+ 0 )", shells).groups()
+        flipped = {"+": "-", "-": "+"}
+        for signs, expected in (((first, flipped[second]), "out of this shell, which lies inside the solid"),
+                                ((flipped[first], second), "into this shell, which no other shell of the solid holds")):
+            self.write("odd.brep", head + signs[0] + outer + signs[1] + inner + tail)
+            sentence = self.failure("volume", "odd.brep", "-o", "odd.mesh", "--size", "20%", "--engine", ENGINES[0])
+            self.assertRegex(sentence, r"No engine can fill solid 1.*: the normals of its shell of faces .* at \([\d, ]+\) point " + expected)
 
     def test_solids_that_touch(self):
         """Triangles with common vertices share their sides; solids of a CAD file must be imprinted."""

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "check/crossings.h"
+#include "volume/shell_check.h"
 
 namespace command {
 namespace {
@@ -111,6 +112,7 @@ SolidSurface solid_surface_of(carreau_mesh* mesh, int threads) {
   }
   for (const auto& [solid, volume] : surface.volumes) surface.solids[solid] = carreau_mesh_entity_name(mesh, 3, solid);
   for (const FaceResult& face : arrays.faces) surface.faces[face.ref] = face.name;
+  check_shells(surface);
   return surface;
 }
 

@@ -29,7 +29,8 @@ struct SolidSurface {
   [[nodiscard]] bool is_quadratic() const noexcept { return !mids.empty(); }
 };
 
-/// Takes the surface of a mesh. Throws Failure with the place when the mesh has quadrilaterals, is open or crosses itself.
+/// Takes the surface of a mesh. Throws Failure with the place when the mesh has quadrilaterals, is open,
+/// crosses itself, or a shell has its material on the wrong side.
 SolidSurface solid_surface_of(carreau_mesh* mesh, int threads);
 
 }  // namespace command

@@ -58,6 +58,9 @@ void FaceOutcome::put(PacketWriter& packet) const {
   packet.put(patch.has_value());
   if (patch) carreau::put(packet, *patch);
   put_layers(packet, layers);
+  std::vector<Vec3> corners;
+  for (const std::array<Vec3, 3>& triangle : turned) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  packet.put(corners);
   packet.put(elsewhere.has_value());
   if (elsewhere) packet.put(std::int64_t{elsewhere->rank}), packet.put(elsewhere->triangles);
   packet.put(space.has_value());
@@ -74,6 +77,8 @@ FaceOutcome FaceOutcome::from(PacketReader& packet) {
   FaceOutcome outcome;
   if (packet.flag()) outcome.patch = patch_of(packet);
   outcome.layers = layers_of(packet);
+  const std::vector<Vec3> corners = packet.points();
+  for (std::size_t k = 0; k + 2 < corners.size(); k += 3) outcome.turned.push_back({corners[k], corners[k + 1], corners[k + 2]});
   if (packet.flag()) {
     const auto rank = static_cast<int>(packet.integer());
     outcome.elsewhere = PatchElsewhere{rank, packet.integer()};

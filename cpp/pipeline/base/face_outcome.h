@@ -2,8 +2,10 @@
 // The outcome of one face, made here or by another process. Private to pipeline/.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "control_space/control_space.h"
 #include "mesh/layer_cell.h"
@@ -22,6 +24,7 @@ struct PatchElsewhere {
 struct FaceOutcome {
   std::optional<PatchMesh> patch;          ///< empty: the face failed
   std::vector<LayerCell> layers = {};      ///< their halves are the last triangles of the patch
+  std::vector<std::array<Vec3, 3>> turned = {};  ///< triangles beside rows that turn their backs on the surface
   std::optional<PatchElsewhere> elsewhere = {};  ///< set: the patch stays with a process, and is empty for all others
   std::optional<ControlSpace> space;       ///< the metric of the mesh; empty when it could not be sampled
   std::string failure;                     ///< the reason why the domain could not be meshed; empty when it was

@@ -50,10 +50,9 @@ class Inspector {
 [[nodiscard]] std::unique_ptr<Inspector> make_periodic_inspector();
 /// Triangles that cross although their faces are apart.
 [[nodiscard]] std::unique_ptr<Inspector> make_crossing_inspector();
-/// Elements of meshes that keep the borders of their patches; invalid ones are divided.
+/// Elements of meshes that keep the borders of their patches; invalid ones are divided. With layers, rows retreat from
+/// invalid, crossing and turned elements, whose work is bounded like the work for crossings.
 [[nodiscard]] std::unique_ptr<Inspector> make_element_inspector();
-/// The same elements of a mesh with layers: rows beside invalid and crossing ones retreat first.
-[[nodiscard]] std::unique_ptr<Inspector> make_row_inspector();
 /// Frees the mesh of the borders of its patches and makes its elements; invalid and crossing ones are divided.
 [[nodiscard]] std::unique_ptr<Inspector> make_cross_patch_inspector();
 

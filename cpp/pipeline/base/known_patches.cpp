@@ -79,6 +79,7 @@ void KnownPatches::keep(std::size_t face, const FaceOutcome& outcome) {
   known.triangles = n;
   known.remark = outcome.remark;
   known.layers = outcome.layers;
+  known.turned = outcome.turned;
 }
 
 void KnownPatches::complete(const CompositeResult& result) {
@@ -115,8 +116,10 @@ std::optional<FaceOutcome> KnownPatches::find(std::size_t face, const PatchInput
   FaceOutcome outcome;
   outcome.patch = known.mesh;
   outcome.space = (*spaces_)[face];
+  if (halved_) outcome.space->scale_lengths(0.5);
   outcome.remark = known.remark;
   outcome.layers = known.layers;
+  outcome.turned = known.turned;
   return outcome;
 }
 

@@ -2,6 +2,7 @@
 // Patches of an earlier round of a run: a face with equal input has an equal mesh. Private to pipeline/.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -31,8 +32,9 @@ class KnownPatches {
   /// Copies the kept patches from the assembled mesh of the round, before it changes or goes. Forgets patches that changed between keep()
   /// and the assembly: they have more vertices.
   void complete(const CompositeResult& result);
-  /// The control spaces of the round before this one, by face. They may go after that round's patches were found.
-  void rely_on(const std::vector<std::optional<ControlSpace>>* spaces) noexcept { spaces_ = spaces; }
+  /// The control spaces of the round before this one, by face. They may go after that round's patches were found. `halved`: its
+  /// elements were cut in two each way, and its spaces describe them.
+  void rely_on(const std::vector<std::optional<ControlSpace>>* spaces, bool halved = false) noexcept { spaces_ = spaces, halved_ = halved; }
   /// A copy of the outcome of the round before, if the face had the same input then.
   [[nodiscard]] std::optional<FaceOutcome> find(std::size_t face, const PatchInput& input,
                                                 const std::vector<EdgeSizes::Source>& grow_from) const;
@@ -54,10 +56,12 @@ class KnownPatches {
     std::size_t vertices = 0, triangles = 0;  // of the whole patch
     std::string remark;
     std::vector<LayerCell> layers;
+    std::vector<std::array<Vec3, 3>> turned;
   };
   std::vector<std::optional<Known>> known_;
   std::vector<std::vector<std::int32_t>> flattened_;
   const std::vector<std::optional<ControlSpace>>* spaces_ = nullptr;
+  bool halved_ = false;  // of the spaces
   std::size_t room_ = thresholds::crossings::max_known;  // triangles that may still be kept
   bool over_ = false;
 };

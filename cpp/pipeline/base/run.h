@@ -2,6 +2,7 @@
 // A run over a composite surface: the data that its steps share. Private to pipeline/.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -53,6 +54,8 @@ struct CompositeRun {
   [[nodiscard]] bool has_patch(std::size_t face) const { return keeper[face] != no_process; }
   /// The mesh of the face is an image of its master's mesh.
   [[nodiscard]] bool is_slave(std::size_t face) const { return !periodic.empty() && periodic.pair_of_slave[face] >= 0; }
+  /// The first mesh has rows that may retreat beside faults, so that its remarks are reported later.
+  [[nodiscard]] bool may_lose_rows() const { return !layers.empty() && options.refines_invalid_elements; }
   /// True if an inspector may request a finer mesh.
   [[nodiscard]] bool may_have_rounds() const { return options.crossing_rounds > 0 || options.element != Element::p1; }
   /// From now on each process makes the whole mesh.
@@ -72,6 +75,7 @@ struct CompositeRun {
   std::optional<SlaveSizes> slave_sizes;  ///< joined to the rules
   LayerCurves layers;
   std::vector<std::vector<LayerCell>> layer_cells;  ///< mesh_patches(); MeshLayers::cells
+  std::vector<std::vector<std::array<Vec3, 3>>> turned_at_rows;  ///< mesh_patches(); by face, FaceOutcome::turned
 
   GradedModel graded;                             ///< grade_sizes()
   double begin = 0;                               ///< share of the run that was over before the curves
@@ -84,6 +88,8 @@ struct CompositeRun {
   /// patch has no owner.
   std::vector<int> keeper;
   std::map<std::size_t, std::string> remarks;     ///< the same; remarks on faces that were meshed
+  std::vector<char> is_known;                     ///< the same; by face, whether it has its patch from the previous round
+  bool halved = false;                            ///< an inspector has cut the elements in two each way
   CompositeResult result;                         ///< assemble_patches()
   /// The input of the mesh, which the next round refines: its curves, and by face the sources of sizes inside.
   std::vector<DiscreteCurve> cut_curves;

@@ -81,5 +81,8 @@ inline constexpr double work_per_face = 300;
 inline constexpr double work_of_varied_sizes = 3;
 /// Work of all rounds, in triangles, if the first mesh took less: some 50 ms.
 inline constexpr double min_budget = 24'000;
+/// Share of the first mesh's work that a round beside rows costs whatever faces it meshes: assembly, nodes, crossings.
+/// [measured on a bottle and a screw: .3 to .4]
+inline constexpr double share_of_any_round = 0.35;
 
 }  // namespace carreau::thresholds::crossings

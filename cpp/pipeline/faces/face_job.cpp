@@ -97,6 +97,7 @@ std::unique_ptr<FaceJob> FaceJob::shared() const {
 FaceOutcome FaceJob::take_outcome() {
   FaceOutcome outcome{.patch = {},
                       .layers = rows_ && failure_.empty() ? std::move(rows_->cells) : std::vector<LayerCell>{},
+                      .turned = std::move(turned_),
                       .space = std::move(space_),
                       .failure = std::move(failure_),
                       .remark = std::move(remark_),
@@ -116,45 +117,16 @@ void FaceJob::fail(const std::string& what) {
 
 // The rows stay as they are made: no later step of this face knows their cells.
 void FaceJob::set_rows_apart() {
-  if (rows_known_) return;
+  if (rows_known_) return;  // the step is repeated
   rows_known_ = true;
   if (layers_.empty()) return;
-  std::vector<RowLimit> limits = row_limits_;
+  std::vector<RowLimit> limits;
   for (const RowLimit& limit : layers_.limits())
     if (limit.face == input_.face) limits.push_back(limit);
   rows_ = make_layer_rows(input_, layers_, *cad_, has_quads_only(options_.element), limits);
   if (!rows_) return;
   input_.domain = &rows_->rest;
   input_.curve_xyz = rows_->rest_xyz;
-}
-
-// Rows beside turned triangles lose half of their height, and the face is made again. Returns false if no row is near.
-bool FaceJob::retreat() {
-  if (!rows_ || retreats_ == work_bounds::rounds) return false;
-  const PatchMesh& mesh = best_->mesh;
-  const std::size_t before = row_limits_.size(), given = given_.domain->plane.vertices.size();
-  const auto at = [&](std::int32_t v) {
-    const auto k = static_cast<std::size_t>(v);
-    return k < given_.curve_xyz.size() ? given_.curve_xyz[k] : rows_->xyz[k - given];
-  };
-  for (const int t : best_->agreement.turned_triangles) {
-    const auto& [a, b, c] = mesh.plane.triangles[static_cast<std::size_t>(t)];
-    const Vec3 &p = mesh.xyz[static_cast<std::size_t>(a)], &q = mesh.xyz[static_cast<std::size_t>(b)], &r = mesh.xyz[static_cast<std::size_t>(c)];
-    const double longest = std::max({norm(q - p), norm(r - q), norm(p - r)});
-    halve_rows_near(input_.face, (1. / 3) * (p + q + r), longest, rows_->cells, at, false, row_limits_);
-  }
-  if (row_limits_.size() == before) return false;
-  ++retreats_;
-  if (even_) cad_ = even_->host_cad, rules_ = even_->host_rules, even_.reset();
-  input_ = given_;
-  rows_.reset(), rows_known_ = false;
-  space_.reset(), mesh_.reset(), best_.reset(), beyond_limit_.reset();
-  corrections_ = refills_ = bounded_rounds_ = 0, vertices_when_refilled_ = 0;
-  undersampled_.clear(), probe_points_.clear();
-  normals_ = {}, prescribed_ = {}, evened_out_ = false;
-  squares_ = has_quads(options_.element) && !options_.independent;
-  remark_.clear();
-  return true;
 }
 
 void FaceJob::sample(Monitor& monitor) {
@@ -256,8 +228,6 @@ void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor
   const bool again = best_->agreement.wrong() && !input_.isotropic && !input_.one_size && sample_bounded(monitor);
   if (again)
     next_ = Step::mesh;
-  else if (retreat())
-    next_ = Step::sample;
   else
     take_best(monitor);
 }
@@ -288,6 +258,11 @@ bool FaceJob::take_best(Monitor& monitor) {
                (agreement.wrong() ? ", and still " + agreement.text() : ""));
   else if (agreement.wrong())
     add_remark(agreement.text());
+  if (rows_)
+    for (const int t : agreement.turned_triangles) {
+      const auto& [a, b, c] = mesh_->plane.triangles[static_cast<std::size_t>(t)];
+      turned_.push_back({mesh_->xyz[static_cast<std::size_t>(a)], mesh_->xyz[static_cast<std::size_t>(b)], mesh_->xyz[static_cast<std::size_t>(c)]});
+    }
   if (even_) return_to_host(monitor);
   if (rows_) mesh_ = with_rows(*rows_, *given_.domain, given_.curve_xyz, std::move(*mesh_));
   return true;

@@ -2,6 +2,7 @@
 // One face on its way through sampling, plane mesh and lift.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,7 +67,6 @@ class FaceJob final : public SteppedTask {
   [[nodiscard]] bool sample_bounded(Monitor& monitor);
   bool take_best(Monitor& monitor);
   void set_rows_apart();
-  [[nodiscard]] bool retreat();
   void add_remark(const std::string& what);
   bool refill_undersampled(std::vector<Vec2>& places, Monitor& monitor);
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
@@ -92,7 +92,7 @@ class FaceJob final : public SteppedTask {
   PatchInput given_, input_;
   std::optional<LayerRows> rows_;  // along curves with layers: input_ is the rest of the face
   bool rows_known_ = false;
-  std::vector<RowLimit> row_limits_;  // that turned triangles require
+  std::vector<std::array<Vec3, 3>> turned_;  // FaceOutcome::turned
   Cad* cad_;
   const SizeRules* rules_;
   const LayerCurves& layers_;
@@ -102,7 +102,7 @@ class FaceJob final : public SteppedTask {
   EdgeSizes bounded_edges_;  // in place of the edges of input_ if these are too small
   std::optional<LimitError> beyond_limit_;
   Step next_ = Step::sample;
-  int corrections_ = 0, refills_ = 0, retreats_ = 0;
+  int corrections_ = 0, refills_ = 0;
   std::size_t vertices_when_refilled_ = 0;
   std::vector<std::vector<Vec2>> undersampled_;  // that meshes so far have missed
   std::vector<Vec2> probe_points_;

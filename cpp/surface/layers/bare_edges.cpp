@@ -28,13 +28,14 @@ std::vector<BareEdges> find_bare_edges(const SurfaceMesh& mesh, const std::vecto
     });
     if (of == layers.end()) continue;
     BareEdges& edges = all[static_cast<std::size_t>(of - layers.begin())];
-    for (const CurveMeshUse& use : curve.uses) {
-      const FaceMesh& face = mesh.faces[static_cast<std::size_t>(use.face)];
+    std::map<std::int32_t, int> sides_on;  // of each edge, by face: a seam has two
+    for (const CurveMeshUse& use : curve.uses) sides_on[use.face] += use.internal ? 2 : 1;
+    for (const auto& [f, sides] : sides_on) {
+      const FaceMesh& face = mesh.faces[static_cast<std::size_t>(f)];
       if (face.triangles.empty()) continue;
       const std::int64_t before = edges.bare;
       for (std::size_t k = 0; k + 1 < curve.vertices.size(); ++k) {
-        const int sides = use.internal ? 2 : 1;
-        const auto found = covered.find(key(use.face, curve.vertices[k], curve.vertices[k + 1]));
+        const auto found = covered.find(key(f, curve.vertices[k], curve.vertices[k + 1]));
         const int bare = sides - std::min(sides, found != covered.end() ? found->second : 0);
         edges.sides += sides, edges.bare += bare;
       }

@@ -11,8 +11,9 @@
 
 namespace carreau {
 
-LayerCurves::LayerCurves(const Model& model, const Topology& topology, std::span<const CurveLayers> layers, bool halved)
-    : layers_(layers.begin(), layers.end()) {
+LayerCurves::LayerCurves(const Model& model, const Topology& topology, std::span<const CurveLayers> layers, bool halved,
+                         bool bent)
+    : layers_(layers.begin(), layers.end()), bent_(bent) {
   if (layers_.empty()) return;
   for (CurveLayers& each : layers_) {
     if (!halved) break;
@@ -43,6 +44,22 @@ std::vector<double> LayerCurves::heights(int layers, double longest) const {
   double next = given.first;
   for (int k = 0; k < given.count && (k == 0 || next <= longest); ++k, next *= given.ratio) all.push_back(next);
   return all;
+}
+
+void LayerCurves::find_bulges(const CurveModel& model, std::span<const DiscreteCurve> curves) {
+  bulges_.clear();
+  if (!bent_ || layers_.empty()) return;
+  bulges_.resize(curves.size());
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const DiscreteCurve& d = curves[c];
+    if (d.indivisible) continue;
+    const CurveUse& use = model.curve(d.curve).uses[static_cast<std::size_t>(d.owner)];
+    const CurveSupport& support = model.support(use);
+    for (std::size_t k = 0; k + 1 < d.r.size(); ++k) {
+      const double r = 0.5 * (d.r[k] + d.r[k + 1]);
+      bulges_[c].push_back(support.point_at_arc((use.reversed ? 1 - r : r) * support.length()) - 0.5 * (d.xyz[k] + d.xyz[k + 1]));
+    }
+  }
 }
 
 namespace {

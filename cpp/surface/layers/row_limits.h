@@ -19,8 +19,9 @@ struct RowLimit {
   int rows = 0;
 };
 
-/// Adds limits for the piles of cells within `reach` of `place`: they lose half of their rows. `halved`: the cells were cut in two each way.
-void halve_rows_near(int face, const Vec3& place, double reach, std::span<const LayerCell> cells,
-                     const std::function<Vec3(std::int32_t)>& at, bool halved, std::vector<RowLimit>& limits);
+/// Adds limits for the piles of cells that have one of `corners` as a vertex: an element with a fault has them. The piles keep the
+/// `divisor`-th part of their rows; none if it is 0. `halved`: the cells were cut in two each way. Returns false if no pile has one.
+bool limit_rows_at(int face, std::span<const Vec3> corners, int divisor, std::span<const LayerCell> cells,
+                   const std::function<Vec3(std::int32_t)>& at, bool halved, std::vector<RowLimit>& limits);
 
 }  // namespace carreau

@@ -18,6 +18,7 @@ RowObstacles::RowObstacles(const RowFace& face) : face_(face) {
     const Vec2 middle = 0.5 * (face_.uv(edge.a) + face_.uv(edge.b));
     obstacle.sagitta = (face_.halved ? 0.25 : 1) *
                        norm(surface_at(face_.cad, face_.input.ref, want_position, middle).s - 0.5 * (obstacle.a + obstacle.b));
+    obstacle.bulge = face_.layers.bulge(edge);
     if (const int layers = face_.layers_of(edge); layers >= 0) {
       obstacle.up = RowFace::unit(cross(face_.normal_at(edge.a), face_.direction(edge.a, edge.b)));
       for (const double h : face_.layers.heights(layers, norm(obstacle.b - obstacle.a))) obstacle.total += h;
@@ -58,14 +59,15 @@ void RowObstacles::end(Column& column) const {
                       [&](const BoxTree::Node& leaf) {
                         for (const std::int32_t k : tree_.things(leaf)) near.push_back(&obstacles_[static_cast<std::size_t>(k)]);
                       });
-  double height = 0, sagitta = 0;
+  double height = 0, sagitta = 0, bulge = 0;
   for (const Obstacle* own : near)
-    if (own->a == base || own->b == base) sagitta = std::max(sagitta, own->sagitta);
+    if (own->a == base || own->b == base)
+      sagitta = std::max(sagitta, own->sagitta), bulge = std::max(bulge, dot(own->bulge, column.up));
   for (int k = 0; k < column.levels; ++k) {
     const double h = column.heights[static_cast<std::size_t>(k)];
     height += h;
     const Vec3& p = face_.xyz(column.at[static_cast<std::size_t>(k) + 1]);
-    const bool free = std::all_of(near.begin(), near.end(), [&](const Obstacle* o) { return is_clear(column, *o, p, height, h, sagitta); });
+    const bool free = std::all_of(near.begin(), near.end(), [&](const Obstacle* o) { return is_clear(column, *o, p, height, h, sagitta, bulge); });
     if (!free) {
       column.levels = k;
       return;
@@ -75,10 +77,12 @@ void RowObstacles::end(Column& column) const {
 
 // Triangles between two chords lean, or turn over, by the sagittas of the chords over the gap.
 bool RowObstacles::is_clear(const Column& column, const Obstacle& obstacle, const Vec3& p, double height, double row,
-                            double sagitta) const {
-  const double upright = std::max(sagitta, obstacle.sagitta);
+                            double sagitta, double bulge) const {
   const Vec3 nearest = nearest_on(obstacle, p);
   const double distance = norm(nearest - p);
+  // Vertices and nodes in the middles of edges leave the chords, towards each other or away.
+  const double approach = bulge + std::max(0.0, dot(obstacle.bulge, RowFace::unit(p - nearest)));
+  const double upright = std::max({sagitta, obstacle.sagitta, approach});
   if (!(obstacle.total > 0)) {
     if (nearest == face_.xyz(column.base)) return true;
     return distance >= std::max(wall_clearance * row, upright);

@@ -21,10 +21,11 @@ class RowObstacles {
     Vec3 up{0, 0, 0};  ///< across the curve into the face, if it has layers
     double total = 0;  ///< height of all of its rows; 0: none
     double sagitta = 0;  ///< of the line in (u, v) over the edge
+    Vec3 bulge{0, 0, 0};  ///< LayerCurves::bulge()
   };
   static Vec3 nearest_on(const Obstacle& edge, const Vec3& p);
   [[nodiscard]] bool is_clear(const Column& column, const Obstacle& obstacle, const Vec3& p, double height, double row,
-                              double sagitta) const;
+                              double sagitta, double bulge) const;
 
   const RowFace& face_;
   std::vector<Obstacle> obstacles_;

@@ -86,8 +86,8 @@ bool SurfaceAgreement::better_than(const SurfaceAgreement& other) const noexcept
 std::string SurfaceAgreement::text() const {
   std::string text;
   if (turned > 0)
-    text = std::to_string(turned) + (turned == 1 ? " triangle is" : " triangles are") +
-           " turned over or stand upright on the surface";
+    text = std::to_string(turned) +
+           (turned == 1 ? " triangle is turned over or stands" : " triangles are turned over or stand") + " upright on the surface";
   if (!leans()) return text;
   return text + (text.empty() ? "" : ", and ") + "triangles lean: they have " +
          (excess < infinity ? format_number(std::round(100 * (1 + excess)) / 100) + " times " : "far more than ") +

@@ -7,14 +7,17 @@
 
 namespace carreau {
 
+class KnownQuads;
+
 /// Joins triangles of each face two by two, improves vertices with few or many cells around, and smooths. With
 /// has_quads_only(work.options.element) the mesh was made with twice the prescribed sizes. It is then cut: each
 /// quadrilateral into four, each triangle into three. Edges of curves (work.curves too) are cut in two at half their
 /// metric length, once for all faces. Sizes and spaces of the result belong to the cut mesh. Vertices lie on the
 /// surface. Keeps vertex_size and curve_size up to date. The same for any number of threads. Throws the exceptions of
 /// the host, and Cancelled. Returns the elements that are still turned over, in (u, v) or in space. Adds the edges of
-/// curves in the result and the lengths there that are too coarse. Without has_quads_only() the report is empty.
-QuadraticReport make_quadrilaterals(const ElementWork& work);
+/// curves in the result and the lengths there that are too coarse. Without has_quads_only() the report is empty. `known`: cells
+/// of faces in an earlier round, which the run replaces; null: none.
+QuadraticReport make_quadrilaterals(const ElementWork& work, KnownQuads* known = nullptr);
 
 /// Halves the sizes of faces, of their insides and of curves, for a mesh that was made with twice the prescribed sizes. Sizes of vertices
 /// and curve_size stay.

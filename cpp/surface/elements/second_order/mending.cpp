@@ -175,10 +175,12 @@ class FaceMender : public Mender<FaceMender, Vec2> {
       const double found = score(cells()[c]);
       if (invalid.count++ == 0) sides = curve_sides(work_, f_);
       if (found < least) least = found, invalid.uv = middle(cells()[c]);
+      InvalidElement element{.face = f_};
       for (int i = 0; i < corner_count(cells()[c].kind); ++i)
-        if (const CurveSide* side = side_at(cells()[c], i, sides)) report.coarse.push_back({side->curve, side->segment});
+        if (const CurveSide* side = side_at(cells()[c], i, sides)) element.coarse.push_back({side->curve, side->segment});
       add_cusps(cells()[c], sides, report.cusps);
-      add_finer(cells()[c], report.finer[f_]);
+      add_finer(cells()[c], element.sides);
+      report.elements.push_back(std::move(element));
       if (c < face_.quads) report.quads[f_].push_back(c);
     }
     std::sort(report.quads[f_].begin(), report.quads[f_].end());

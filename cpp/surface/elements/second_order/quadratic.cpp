@@ -339,7 +339,7 @@ QuadraticReport make_quadratic(const ElementWork& work, const std::vector<CuspEn
   QuadraticReport report;
   SurfaceMesh& mesh = work.result.mesh;
   mesh.mid_vertices.clear();
-  report.finer.resize(mesh.faces.size()), report.quads.resize(mesh.faces.size());
+  report.quads.resize(mesh.faces.size());
   CurveNodes of_curves(work, cusps);
   std::vector<std::int32_t> uses(mesh.vertices.size(), 0);
   for (const FaceMesh& face : mesh.faces)
@@ -359,7 +359,7 @@ QuadraticReport make_quadratic(const ElementWork& work, const std::vector<CuspEn
   for (const std::size_t f : doubtful) find_invalid(work, f, report);
   if (work.periodic != nullptr) follow_masters(work, fixed_vertices, fixed_mids, report);
   of_curves.tell_curves();
-  sort_uniquely(report.coarse), sort_uniquely(report.cusps);
+  sort_uniquely(report.cusps);
   return report;
 }
 

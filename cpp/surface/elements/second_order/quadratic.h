@@ -29,16 +29,22 @@ struct InvalidElements {
   Vec2 uv;  ///< in the middle of the worst one
 };
 
+/// One of them.
+struct InvalidElement {
+  std::size_t face = 0;
+  /// The sides, each with a size: half of the longest side or of the prescribed size, whichever is smaller (without halving if all
+  /// elements are cut).
+  std::vector<EdgeSizes::Source> sides = {};
+  std::vector<CurveEdge> coarse = {};  ///< its edges on curves
+};
+
 struct QuadraticReport {
   std::size_t crossed = 0;      ///< elements that were invalid with nodes in the middles of straight edges of (u, v)
   std::size_t moved_nodes = 0;  ///< nodes inside faces that repairs have moved, of edges and of corners
   std::vector<InvalidElements> invalid;
   std::vector<std::vector<std::int32_t>> quads;  ///< by face: quadrilaterals among them, ascending
-  std::vector<CurveEdge> coarse;  ///< edges of curves of elements that stay invalid, ascending, each once
+  std::vector<InvalidElement> elements;          ///< that stay invalid, face after face
   std::vector<CuspEnd> cusps;     ///< of elements that stay invalid with a corner there, ascending, each once
-  /// Sides of elements that stay invalid, by face, with a size for each. The size is half of the longest side or of the
-  /// prescribed size, whichever is smaller (without halving if all elements are cut).
-  std::vector<std::vector<EdgeSizes::Source>> finer;
 };
 
 /// Gives each edge of result.mesh a node. An edge of a curve gets the point at half its metric length, once for all

@@ -283,16 +283,18 @@ TEST(LayerRows, RowsBesideAFaultLoseHalf) {
                                      {.corners = {1, 2, 5, 4}, .layers = 0, .row = 0}};
   std::vector<RowLimit> limits;
   const auto place = [&](std::int32_t v) { return at[static_cast<std::size_t>(v)]; };
-  halve_rows_near(7, {0, 2.5, 0}, 0.6, cells, place, false, limits);
+  EXPECT_TRUE(limit_rows_at(7, std::vector<Vec3>{{0, 2, 0}, {0, 3, 0}}, 2, cells, place, false, limits));
   ASSERT_EQ(limits.size(), 1U);
   EXPECT_EQ(limits[0].face, 7);
   EXPECT_EQ(limits[0].rows, 1);
   EXPECT_LE(norm(limits[0].place - at[0]), limits[0].reach);
   EXPECT_LE(norm(limits[0].place - at[1]), limits[0].reach);
   EXPECT_GT(norm(limits[0].place - at[2]), limits[0].reach);
-  halve_rows_near(7, {2, 1, 0}, 0.1, cells, place, false, limits);
+  EXPECT_TRUE(limit_rows_at(7, std::vector<Vec3>{{2, 1, 0}}, 2, cells, place, false, limits));
   ASSERT_EQ(limits.size(), 2U);
   EXPECT_EQ(limits[1].rows, 0);
+  EXPECT_FALSE(limit_rows_at(7, std::vector<Vec3>{{2, 1.01, 0}}, 2, cells, place, false, limits));
+  EXPECT_EQ(limits.size(), 2U);
 }
 
 TEST(LayerRows, QuadrilateralsComeInRows) {

@@ -32,6 +32,7 @@ FaceOutcome some_outcome() {
   outcome.remark = "face 3: something is to be known";
   outcome.seconds_plane = 0.5;
   outcome.corrections = 2;
+  outcome.turned = {{Vec3(0, 0, 0), Vec3(1, 0, 0.1), Vec3(0, 1, 0)}};
   return outcome;
 }
 
@@ -52,6 +53,7 @@ TEST(FaceOutcome, ComesBackBitForBit) {
   EXPECT_EQ(back.patch->size, outcome.patch->size);
   EXPECT_EQ(back.remark, outcome.remark);
   EXPECT_EQ(back.corrections, 2);
+  EXPECT_EQ(back.turned, outcome.turned);
   EXPECT_EQ(bytes_of(back), bytes);
 }
 
