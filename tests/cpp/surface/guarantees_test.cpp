@@ -94,6 +94,31 @@ TEST_P(Guarantee, PlanesOfTrianglesByDirection) {
   }
 }
 
+/// Planes lean at edges that see nothing: along lines of a saddle without normal curvature, and beside straight lines of inflection.
+AnalyticCad saddle() {
+  const auto at = [](Vec2 p) -> SurfaceJet { return {{p.x(), p.y(), p.x() * p.y()}, {1, 0, p.y()}, {0, 1, p.x()}, {}, {0, 0, 1}, {}}; };
+  return one_face(at, rectangle({-2, -2}, {2, 2}));
+}
+AnalyticCad wave() {
+  const auto at = [](Vec2 p) -> SurfaceJet {
+    const double s = std::sin(3 * p.x());
+    return {{p.x(), p.y(), 0.3 * s}, {1, 0, 0.9 * std::cos(3 * p.x())}, {0, 1, 0}, {0, 0, -2.7 * s}, {}, {}};
+  };
+  return one_face(at, rectangle({-2, -2}, {2, 2}));
+}
+
+TEST(Planes, OfTrianglesOnSaddlesAndWaves) {
+  for (const Surface& surface : {Surface{"saddle", saddle}, Surface{"wave", wave}})
+    for (const bool by_direction : {false, true})
+      for (const double angle : {16.0, 8.0}) {
+        const Planes run(surface, angle, by_direction, 1.3);
+        const Delivery& planes = run.triangles.session->delivered()[Kind::vertex_angle];
+        SCOPED_TRACE(surface.name + (", " + known(planes, angle)));
+        EXPECT_LE(planes.spread.max, angle);
+        EXPECT_EQ(run.triangles.session->delivered().folded_triangles, 0);
+      }
+}
+
 TEST_P(Guarantee, NormalsAsPredicted) {
   // HDR eq. 4.26: where two edges at an angle alpha make at most eps1 with the tangent plane, the normal of the
   // triangle is off by at most phi, sin(phi) = sin(eps1) sqrt(2 + 2 |cos(alpha)|) / sin(alpha).
