@@ -71,9 +71,10 @@ Vec2 best_place(SearchZone& zone, int v, bool quick, bool in_vain) {
   return better ? found : old.point();
 }
 
-void move(SearchZone& zone, int v, bool quick) {
+// Returns whether v has moved.
+bool move(SearchZone& zone, int v, bool quick) {
   const Triangulation& mesh = zone.work.mesh;
-  if (mesh.vertices[v].triangle < 0 || !zone.star.collect(mesh, v)) return;
+  if (mesh.vertices[v].triangle < 0 || !zone.star.collect(mesh, v)) return false;
   const Vec2 from = mesh.at(v);
   const PlaceKey star = key_of_star(v, zone.star.link, [&](int u) { return zone.places[u]; });
   const PlaceKey key = quick ? star : star + 1;
@@ -85,7 +86,9 @@ void move(SearchZone& zone, int v, bool quick) {
     to = best_place(zone, v, quick, quickly != nullptr && *quickly == from);
     zone.known_moves.put(key, to);
   }
-  if (to != from) zone.place(v, to);
+  if (to == from) return false;
+  zone.place(v, to);
+  return true;
 }
 
 // True if the diagonal ab of the quadrilateral c a d b, edge i of t, costs less after a swap.
@@ -104,25 +107,28 @@ bool wants_swap(SearchZone& zone, int t, int i, int d) {
   return swaps;
 }
 
-void swap(SearchZone& zone) {
+// Returns whether an edge was swapped.
+bool swap(SearchZone& zone) {
   Triangulation& mesh = zone.work.mesh;
+  bool any = false;
   for (const std::int32_t t : zone.triangles) mesh.triangles[t].mark = 1;
   for (const std::int32_t t : zone.triangles)
     for (int i = 0; i < 3; ++i) {
       const Triangle& T = mesh.triangles[t];
       if (T.v[0] < 0 || T.n[i] == no_edge || mesh.is_imposed(t, i)) continue;
       const Triangle& U = mesh.triangles[T.n[i] >> 2];
-      if (U.mark != 0 && wants_swap(zone, t, i, U.v[T.n[i] & 3])) mesh.swap_edge(t, i);
+      if (U.mark != 0 && wants_swap(zone, t, i, U.v[T.n[i] & 3])) mesh.swap_edge(t, i), any = true;
     }
   for (const std::int32_t t : zone.triangles) mesh.triangles[t].mark = 0;
+  return any;
 }
 
 }  // namespace
 
 void relax_zone(SearchZone& zone, bool quick) {
-  swap(zone);
-  for (const std::int32_t v : zone.movable) move(zone, v, quick);
-  if (!quick) swap(zone);
+  bool changed = swap(zone);
+  for (const std::int32_t v : zone.movable) changed = move(zone, v, quick) || changed;
+  if (!quick && changed) swap(zone);
 }
 
 }  // namespace carreau::plane
