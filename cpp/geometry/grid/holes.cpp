@@ -78,7 +78,7 @@ class Filler {
   /// Sweeps of Gauss and Seidel.
   void relax(Monitor& monitor) {
     double first = 0;
-    // Of a hole of 50 x 50 nodes 1e-3 is left after 2000 sweeps. [Holes.*]
+    // A hole of 50 x 50 nodes keeps 1e-3 of its error after 2000 sweeps. [Holes.*]
     for (int sweep = 0; sweep < 2000; ++sweep) {
       monitor.checkpoint();
       double largest = 0;
