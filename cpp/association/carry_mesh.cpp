@@ -222,8 +222,9 @@ class Carrier {
   [[nodiscard]] Boundary best_boundary(std::size_t f, const ElementWork& work) const {
     const std::vector<CurveSide> sides = curve_sides(work, f);
     const std::vector<Seam> seams = uses_in_face(f);
+    // All choices of sides of so many seams are tried, 64 at most.
     const auto doubled = std::min<std::ptrdiff_t>(
-        max_seams, std::count_if(seams.begin(), seams.end(), [](const Seam& seam) { return seam.from.size() == 2; }));
+        6, std::count_if(seams.begin(), seams.end(), [](const Seam& seam) { return seam.from.size() == 2; }));
     Boundary best;
     for (unsigned turned = 0; turned < 1U << doubled; ++turned) {
       Boundary now = boundary(f, sides, seams, turned);

@@ -2,9 +2,9 @@
 #include "association/edge_marks.h"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
-#include "association/thresholds.h"
 #include "support/error.h"
 
 namespace carreau::refining {
@@ -64,7 +64,8 @@ bool EdgeMarks::mark_long(std::span<const double> sizes) {
   bool any = false;
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const auto [a, b] = edges_[e];
-    if (length(static_cast<std::int32_t>(e)) > thresholds::association::max_length * std::sqrt(sizes[a] * sizes[b])) marked_[e] = 1, any = true;
+    // Two halves of a longer edge are nearer to the size than the whole.
+    if (length(static_cast<std::int32_t>(e)) > std::numbers::sqrt2 * std::sqrt(sizes[a] * sizes[b])) marked_[e] = 1, any = true;
   }
   return any;
 }

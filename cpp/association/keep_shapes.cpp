@@ -16,6 +16,7 @@
 #include "model/format_point.h"
 #include "support/error.h"
 #include "support/format.h"
+#include "support/work_bounds.h"
 #include "surface/improve/bad_region.h"
 #include "surface/improve/smoothing.h"
 #include "surface/improve/swaps.h"
@@ -70,7 +71,7 @@ bool swap_turned(Surroundings& around) {
   PlaneMesh& plane = around.patch.plane;
   EditableMesh mesh(around.domain, plane, around.patch.xyz);
   bool left = false;
-  for (int pass = 0; pass < swap_passes; ++pass) {
+  for (int pass = 0; pass < work_bounds::rounds; ++pass) {
     bool changed = false;
     left = false;
     for (std::size_t t = 0; t < plane.triangles.size(); ++t) {
@@ -147,9 +148,9 @@ bool ShapeKeeper::repeats_chord(std::size_t f, std::vector<Chord> before) {
 
 void ShapeKeeper::restore(std::size_t f, std::span<const float> before) {
   const FaceMesh& face = mesh_.faces[f];
-  const double poor = isotropic_ ? poor_shape : 0;
+  const double poor = isotropic_ ? shape_level::bad : 0;
   repair(f, triangles_below(face, [&](std::size_t) { return poor; }), false);
-  if (isotropic_) repair(f, triangles_below(face, [&](std::size_t t) { return std::max(std::min<double>(before[t], kept_shape) - shape_loss, 0.0); }), true);
+  if (isotropic_) repair(f, triangles_below(face, [&](std::size_t t) { return std::max(std::min<double>(before[t], shape_level::good) - shape_loss, 0.0); }), true);
   if (face.quads == 0) return;
   std::vector<double> kept;
   for (const float shape : before) kept.push_back(isotropic_ && !quadratic_ ? std::max(std::min<double>(shape, shape_level::poor) - shape_loss, 0.0) : 0);
@@ -182,7 +183,7 @@ void ShapeKeeper::repair(std::size_t f, const std::vector<std::int32_t>& worse, 
     std::vector<std::int32_t> all(around.triangles.size());
     std::iota(all.begin(), all.end(), 0);
     const BadRegion region(around.domain, patch.plane, patch.xyz, std::move(all), 1, monitor_);
-    for (int round = 0; round < restoring_rounds; ++round) {
+    for (int round = 0; round < work_bounds::rounds; ++round) {
       const bool swapped = swap_in_space(region, around.domain, patch.plane, patch.xyz, monitor_);
       if (!moves || (smooth_in_space(region, around.domain, face.ref, cad_, patch, monitor_).empty() && !swapped)) break;
     }
@@ -225,7 +226,7 @@ void report_losses(SurfaceMesh& mesh, std::span<const WorstShape> before, const 
                               ", the first one at " + format_point(mesh.vertices[turned.first]);
       face.status = FaceStatus::mended, face.why += (face.why.empty() ? "" : "; ") + why;
       monitor.message(Level::warning, why);
-    } else if (shape < reported_loss * std::min(before[f].shape, kept_shape)) {
+    } else if (shape < 0.5 * std::min(before[f].shape, shape_level::good)) {
       monitor.message(Level::warning, where + "the " + by + " has lowered the worst shape (Q2) from " + rounded(before[f].shape) + " to " + rounded(shape) + " at " +
                                           format_point(mesh.vertices[vertex]));
     }

@@ -17,8 +17,12 @@
 #include "association/thresholds.h"
 #include "cad/batches.h"
 #include "mesh/editable_mesh.h"
+#include "mesh/shape_levels.h"
 #include "periodic/shared_curves.h"
 #include "support/error.h"
+#include "support/rounding_of.h"
+#include "support/shares.h"
+#include "support/work_bounds.h"
 #include "surface/carry/periodic_links.h"
 #include "surface/elements/base/curve_middles.h"
 #include "surface/elements/base/invalid_report.h"
@@ -48,7 +52,7 @@ class Refiner {
       marks_->mark_edges(request.edges), marks_->mark_elements(request.elements);
       refine(sizes, true);
     }
-    for (int round = 0; !sizes.empty() && round < max_size_rounds; ++round) {
+    for (int round = 0; !sizes.empty() && round < rounding_of::halvings; ++round) {
       marks_.emplace(mesh_);
       if (!marks_->mark_long(sizes)) break;
       refine(sizes, true);
@@ -250,7 +254,7 @@ class Refiner {
         const auto [a, b] = local[point.edge];
         const double left = norm(point.xyz - mesh_.vertices[face.vertex[a]]), right = norm(mesh_.vertices[face.vertex[b]] - point.xyz);
         const double shift = (right - left) / (2 * (left + right));
-        if (!(std::abs(shift) > off_middle) || step + 1 == middle_steps) return true;
+        if (!(std::abs(shift) > shares::small) || step + 1 == middle_steps) return true;
         const Vec2 way = point.to - point.from;
         const double share = std::clamp(dot(point.uv - point.from, way) / dot(way, way) + shift, 0.1, 0.9);
         point.uv = lerp(point.from, point.to, share);
@@ -335,7 +339,7 @@ class Refiner {
     std::iota(centres.begin(), centres.end(), first_new);
     if (centres.empty() || mesh_.cells_are_not_triangles()) return;
     EditableMesh mesh(mesh_, centres, 1);
-    for (int pass = 0; pass < swap_passes; ++pass) {
+    for (int pass = 0; pass < work_bounds::rounds; ++pass) {
       bool changed = false;
       monitor_.checkpoint();
       for (const std::int32_t v : centres) {
@@ -354,7 +358,7 @@ class Refiner {
     const FaceMesh& face = mesh_.faces[quad->face];
     const auto worst = [&](const Triangle& t, const Triangle& u) { return std::min(shape_of(face, t, mesh_.vertices), shape_of(face, u, mesh_.vertices)); };
     const auto after = EditableMesh::swapped(*quad);
-    if (!(worst(after[0], after[1]) > worst(mesh.at({quad->face, quad->t}), mesh.at({quad->face, quad->u})) + min_swap_gain)) return false;
+    if (!(worst(after[0], after[1]) > worst(mesh.at({quad->face, quad->t}), mesh.at({quad->face, quad->u})) + shape_level::gain)) return false;
     const Vec3 normal = mesh.mean_normal(quad->places());
     for (const Triangle& t : after) {
       const Vec3 n = mesh.normal(quad->face, t);

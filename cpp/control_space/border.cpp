@@ -93,7 +93,8 @@ void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std
   const auto highest = [&](double x, std::int32_t end) {
     return static_cast<std::int32_t>(std::floor(std::min<double>(x + reach, end)));
   };
-  if (lattice_.samples().size() <= few_nodes) {
+  // So few nodes are searched faster one by one than by the places of a grid. [time only]
+  if (lattice_.samples().size() <= 400) {
     if (nodes_.size() < lattice_.samples().size()) sort_nodes();
     const std::int32_t left = lowest(centre.x()), right = highest(centre.x(), lattice_.end().i);
     const std::int32_t bottom = lowest(centre.y()), top = highest(centre.y(), lattice_.end().j);
@@ -121,7 +122,7 @@ void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std
 
 Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) {
   std::vector<Sample> near;
-  near.reserve(usual_neighbours);
+  near.reserve(48);
   double scale = size;
   const double widest = 2.0 * std::max(lattice_.end().i, lattice_.end().j);
   // At widened reaches the grid is read with the spacing of wider cells.

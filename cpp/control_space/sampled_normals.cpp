@@ -31,14 +31,15 @@ class SampledNormals::Fit {
     const double x = x_ * d.x() + skew_ * d.y(), y = y_ * d.y(), r2 = x * x + y * y;
     if (!(r2 < 1)) return;
     ++count_;
-    const double w = (1 - r2) * (1 - r2) / (r2 * r2 + nearest_normal);
+    const double w = (1 - r2) * (1 - r2) / (r2 * r2 + rounding_of::heights);
     weight_ += w, px_ += w * x, py_ += w * y, xx_ += w * x * x, xy_ += w * x * y, yy_ += w * y * y;
     sum_ = sum_ + w * normal, sum_x_ = sum_x_ + (w * x) * normal, sum_y_ = sum_y_ + (w * y) * normal;
   }
   [[nodiscard]] int count() const noexcept { return count_; }
   /// Returns whether the samples do not lie on a line.
   [[nodiscard]] bool is_sound() const noexcept {
-    if (count_ < enough_normals) return false;
+    // A fit has three coefficients for each coordinate; twice as many samples are enough.
+    if (count_ < 6) return false;
     const Moments m = moments();
     return m.xx * m.yy - m.xy * m.xy > shares::negligible * (m.xx + m.yy) * (m.xx + m.yy);
   }
@@ -84,7 +85,7 @@ void SampledNormals::index(const ControlSpace& space) {
   if (samples_.empty() || !differ_) return;
   const auto n = static_cast<double>(samples_.size());
   spacing_ = std::sqrt(std::numbers::sqrt3 / 4 * space.measure() / n);
-  side_ = std::max(1, static_cast<int>(std::sqrt(n / samples_per_bucket)));
+  side_ = std::max(1, static_cast<int>(std::sqrt(n / 2.)));
   Vec2 high = low_ = samples_.front().uv;
   for (const Sample& s : samples_) {
     low_ = low_.cwiseMin(s.uv);

@@ -37,7 +37,8 @@ ControlSpaceSampling::ControlSpaceSampling(const SampledDomain& domain, const Su
       options_(options),
       monitor_(monitor),
       vertex_sampled_(domain.vertices.size(), 0) {
-  options_.max_samples = std::max(options_.max_samples, min_of_max_samples);
+  // Fewer samples do not follow any field. [Limits.NoiseAndJumpsCostAtMostTheSamplesAllowed]
+  options_.max_samples = std::max<std::size_t>(options_.max_samples, 1000);
 }
 
 void ControlSpaceSampling::run() {
@@ -82,11 +83,13 @@ void ControlSpaceSampling::look_at_probe_points() {
       const std::int32_t leaf = tree_->leaf_at(lattice_->unit_cell(uv[k]));
       if (leaf < 0 || !(*tree_)[leaf].relevant || !tree_->can_split(leaf)) continue;
       const double vertices = std::max((*tree_)[leaf].vertices, vertices_of((*tree_)[leaf], roots[k]));
-      if (std::sqrt(vertices * area_per_vertex) > probe_width) cells.push_back(leaf);
+      // Cells at probe points are split while they are wider than half an edge. [surface: SteepPlaces]
+      if (std::sqrt(vertices * area_per_vertex) > 0.5) cells.push_back(leaf);
     }
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    if (cells.empty() || samples_left() < worst_cost * static_cast<double>(cells.size())) return;
+    // A split costs at most 16 samples (4 middles, 4 centres, 8 boundary vertices), and a test 3.
+    if (cells.empty() || samples_left() < 16 * static_cast<double>(cells.size())) return;
     balance_cells(refine(cells));
   }
 }
@@ -102,7 +105,7 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
   const auto shorter_side = [&](double count) { return std::sqrt(count * std::min(s.aspect, 1 / s.aspect)); };
   while (coarsest >= 4 * min_cells && shorter_side(coarsest / 4) >= min_side) coarsest /= 4;
   const auto side = [](double count) {
-    return static_cast<int>(std::clamp(std::round(count), double{min_side}, double{max_side}));
+    return static_cast<int>(std::clamp(std::round(count), double{min_side}, 1024.));
   };
   // The side that is rounded most comes first, so that the product remains.
   int columns, rows;
@@ -113,8 +116,9 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
     columns = side(std::sqrt(coarsest * s.aspect));
     rows = side(coarsest / columns);
   }
-  std::int32_t step = max_step;
-  while (step > max_units / std::max(columns, rows)) step /= 2;
+  std::int32_t step = 1 << 20;
+  // Units of the finest grid: places are whole numbers, and cells have at most 2^20 of them.
+  while (step > (1 << 29) / std::max(columns, rows)) step /= 2;
   lattice_.emplace(s.low, s.high, columns, rows, step, locator_);
   border_.emplace(*lattice_);
   tree_.emplace(domain_, locator_, *lattice_);
@@ -326,7 +330,8 @@ bool ControlSpaceSampling::is_beyond_tolerance(const TreeCell& cell) const noexc
 
 double ControlSpaceSampling::samples_for_smooth_fields() const noexcept {
   const double others = options_.thorough ? 0 : std::max(vertices_ - vertices_that_count, 0.0);
-  return spare_samples + options_.samples_per_vertex * (vertices_ - (1 - share_of_others) * others);
+  // A twelfth of the vertices beyond the first ones counts. [surface: Calls.AreAtMostFiveAVertexWhenGeometric]
+  return spare_samples + options_.samples_per_vertex * (vertices_ - (1 - 1.0 / 12) * others);
 }
 
 // Cells to split, in their order. Crowded cells are split as far as max_samples allows, cells beyond the tolerance
@@ -363,7 +368,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   cut(may, samples_for_smooth_fields() - spent, usual_cost);
   crowd.insert(crowd.end(), must.begin(), must.end());
   crowd.insert(crowd.end(), may.begin(), may.end());
-  cut(crowd, samples_left() - test_cost * static_cast<double>(untested), worst_cost);
+  cut(crowd, samples_left() - 3 * static_cast<double>(untested), 16);
   std::sort(crowd.begin(), crowd.end());
   return crowd;
 }

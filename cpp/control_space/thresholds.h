@@ -32,15 +32,9 @@ inline constexpr double min_cells = 25;
 /// Samples. Cost of a cell of a uniform grid: a node, its centre, its share of the border.
 inline constexpr double samples_per_cell = 2.4;
 /// Cells. Number along a side of the first grid.
-inline constexpr int min_side = 3, max_side = 1024;
-/// Units of the finest grid. Length of a side, and of a cell: places are whole numbers. [range of integers]
-inline constexpr std::int32_t max_units = 1 << 29, max_step = 1 << 20;
+inline constexpr int min_side = 3;
 /// Vertices desired in a cell. A cell that holds so many times more is split without a test.
 inline constexpr double crowded = 1.6;
-/// Samples. Least value of max_samples. [Limits.NoiseAndJumpsCostAtMostTheSamplesAllowed]
-inline constexpr std::size_t min_of_max_samples = 1000;
-/// Edges. Cells at probe points are split while they are wider. [surface: SteepPlaces]
-inline constexpr double probe_width = 0.5;
 
 // Errors (sampling)
 /// Edges. Lengths of a cell below do not matter. [ControlSpace.ErrorsFollowTheTolerance, as all below]
@@ -60,13 +54,11 @@ inline constexpr double much_stretched = 30;
 // Budgets (sampling)
 /// Samples. Cost of splitting a cell: usually, and at most (4 middles, 4 centres, 8 boundary vertices); cost of testing
 /// it. [Limits.NoiseAndJumpsCostAtMostTheSamplesAllowed, as all below]
-inline constexpr double usual_cost = 7, worst_cost = 16, test_cost = 3;
+inline constexpr double usual_cost = 7;
 /// Samples. Allowance beyond the samples for each vertex where errors are no larger than edges can show;
 inline constexpr double spare_samples = 100;
 /// Vertices. in a large mesh only so many count,
 inline constexpr double vertices_that_count = 1500;
-/// Share. and this of the others. [surface: Calls.AreAtMostFiveAVertexWhenGeometric]
-inline constexpr double share_of_others = 1.0 / 12;
 /// Samples, and samples a vertex. Limits where the tolerance is violated.
 inline constexpr double max_spare_samples = 800, max_samples_per_vertex = 4;
 /// Samples a vertex. Gradation leaves more kinks, and bounds each of them. [surface: GradedModel.
@@ -76,10 +68,6 @@ inline constexpr double max_graded_samples_per_vertex = 6;
 // Along borders (border, quadratic_fit)
 /// Samples. Wanted before a quadratic is fitted, which has six coefficients. [QuadraticFit]
 inline constexpr std::size_t enough_neighbours = 10;
-/// Samples. Usual number. [memory only]
-inline constexpr std::size_t usual_neighbours = 48;
-/// Nodes. So few nodes are searched faster one by one than by the places of a grid. [time only]
-inline constexpr std::size_t few_nodes = 400;
 /// Sizes. Reach of the neighbourhood, [ControlSpace.IsDefiniteEverywhereInTheBoxAndTakesTheNearestValueOutside, as
 /// below]
 inline constexpr double reach_in_sizes = 2.2;
@@ -99,21 +87,12 @@ inline constexpr double directed_rounding = 1e-4;
 // Normals at samples (sampled_normals)
 /// Samples. More do not extend the reach. [SampledNormals.ConvergeAtSecondOrder, as all below]
 inline constexpr std::size_t max_normals = 16'384;
-/// Samples. Number in a bucket of the grid. [time only]
-inline constexpr double samples_per_bucket = 2;
 /// Ratio. Ratio from one reach to the next, if the samples are too few or on a line,
 inline constexpr double reach_growth = 1.5;
-/// Samples. Enough for a fit.
-inline constexpr int enough_normals = 6;
-/// Fourth power of reaches. Added to the fourth power of a distance, by which weights are divided: a sample at the
-/// place itself has a finite weight, far above all others. [SampledNormals.AreExactAtSamples]
-inline constexpr double nearest_normal = 1e-12;
 
 // Polynomials (writer)
 /// Steps. Number of steps in which a side or a cell is straightened. [as above]
 inline constexpr int straightening_steps = 8;
-/// Entries of the table for each leaf, at most. [Limits.SmallMeshesTakeLittleMemory]
-inline constexpr std::size_t table_per_leaf = 2;
 /// Points. Number along each side of a cut leaf; they determine its part inside. [ControlSpace.MeasureIsTheArea...]
 inline constexpr int cut_leaf_points = 4;
 

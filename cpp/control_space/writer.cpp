@@ -298,7 +298,8 @@ void ControlSpaceWriter::write() {
   };
   const std::int32_t finest = tree_[leaves_.back()].size;
   table_step_ = lattice_.step();
-  while (table_step_ > finest && count(table_step_ / 2) <= table_per_leaf * leaves_.size()) table_step_ /= 2;
+  // At most two entries of the table for each leaf. [Limits.SmallMeshesTakeLittleMemory]
+  while (table_step_ > finest && count(table_step_ / 2) <= 2 * leaves_.size()) table_step_ /= 2;
 
   const std::int32_t columns = lattice_.end().i / table_step_, rows = lattice_.end().j / table_step_;
   space_.columns_ = static_cast<std::size_t>(columns);

@@ -14,8 +14,6 @@ inline constexpr double jump = 1e-10;
 inline constexpr double same_place = 1e-7;
 /// Degrees. A polyline that turns more at a vertex has a corner there. [Embedding.CornersBecomePoints]
 inline constexpr double corner = 15;
-/// Number of projections for one chord. Chords that need more do not follow the surface.
-inline constexpr int projections_of_chord = 4000;
 /// Share of the diagonal. Chords of a wire leave it by at most this.
 inline constexpr double chord_of_wire = 1e-5;
 /// Number of times that a chord is divided: of a wire, and at a curve between two faces.

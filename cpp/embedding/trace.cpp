@@ -73,7 +73,8 @@ class Tracer {
 
 // The trace stays on the preferred face if faces touch.
 Foot Tracer::foot(const Vec3& x, double t, int preferred) {
-  if (++projections_ > limit::projections_of_chord)
+  // Chords that need more projections do not follow the surface.
+  if (++projections_ > 4000)
     throw InvalidArgument("segment " + std::to_string(rank_) + " of the polyline does not follow the faces near " + format_point(x) + ": more points are required");
   Ground::Place place = ground_.closest(2, x, 0);
   if (preferred != 0 && place.ref != preferred)

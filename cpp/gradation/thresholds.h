@@ -36,8 +36,4 @@ inline constexpr double wedge = 28 * std::numbers::pi / 180;
 /// vertices. [models: corners are no zones]
 inline constexpr double longer_between_feet = 1.05;
 
-// Places in a face (triangle_tree)
-/// Roundings. A point so far inside a triangle is in no other one. [TriangleTreePlaces.MatchTheNearestTriangle]
-inline constexpr double clearly_inside = 1e5;
-
 }  // namespace carreau::thresholds::gradation

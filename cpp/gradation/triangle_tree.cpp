@@ -97,7 +97,8 @@ std::size_t TriangleTree::start_near(const Vec2& p) const noexcept {
 
 // The only triangle that holds a point; -1 where that is not clear, or the way there is long or leaves the domain.
 std::int32_t TriangleTree::walk(const Vec2& p) const noexcept {
-  const double clear = clearly_inside * inside_;
+  // A point so many roundings inside a triangle is in no other triangle. [TriangleTreePlaces.MatchTheNearestTriangle]
+  const double clear = 1e5 * inside_;
   std::int32_t t = starts_[start_near(p)];
   for (int step = 0; step < 32 && /* longer walks are left to the search */ t >= 0; ++step) {
     const Corners& c = corners_[static_cast<std::size_t>(t)];

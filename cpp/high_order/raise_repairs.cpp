@@ -5,6 +5,8 @@
 #include "mesh/local_search.h"
 #include "support/error.h"
 #include "support/infinity.h"
+#include "support/work_bounds.h"
+#include "surface/elements/base/thresholds.h"
 
 namespace carreau {
 
@@ -19,7 +21,7 @@ void Raiser::repair() {
   if (bad.empty()) return;
   list_neighbours();
   const std::size_t first = bad.size();
-  for (int round = 0; round < max_rounds && !bad.empty(); ++round) {
+  for (int round = 0; round < work_bounds::rounds && !bad.empty(); ++round) {
     for (const std::size_t k : bad) {
       monitor_.checkpoint();
       move_inner(k);
@@ -66,7 +68,7 @@ bool Raiser::search(std::int32_t node, const Element& e, const Judge& judge) {
     return true;
   };
   const double before = judge();
-  const Vec2 by = search_along_compass(before, first_step, last_step, [&](const Vec2& step, double) {
+  const Vec2 by = search_along_compass(before, thresholds::elements::first_step, thresholds::elements::last_step, [&](const Vec2& step, double) {
     const Vec2 uv = home + step.cwiseProduct(size);
     if ((uv.array() < (low - 0.5 * size).array()).any() || (uv.array() > (high + 0.5 * size).array()).any()) return -infinity;
     return put(uv) ? judge() : -infinity;

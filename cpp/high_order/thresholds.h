@@ -8,9 +8,6 @@ namespace carreau::thresholds::high_order {
 inline constexpr double least_jacobian = 1e-6, good_jacobian = 0.1;
 /// Share of the edge. A closest point that is farther from its chord lies on another sheet of the surface: the place on the way in (u, v) holds.
 inline constexpr double max_sagitta = 0.5;
-/// First and last step of a node, shares of the box of its element in (u, v), and rounds over the invalid elements.
-inline constexpr double first_step = 0.15, last_step = 0.01;
-inline constexpr int max_rounds = 4;
 /// Times that edges of invalid elements are halved: as elements of order two are, whose arcs then have 6 degrees. [the eleven files at 3 %]
 inline constexpr int max_divisions = 4;
 /// Rings of neighbours that take the shape of order 2 with an element.

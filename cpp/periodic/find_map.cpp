@@ -89,7 +89,8 @@ std::optional<Isometry> find_map(const std::vector<Vec3>& from, const std::vecto
   Isometry translation;
   translation.shift = mean_of(to) - mean_of(from);
   if (accepted(translation)) return translation;
-  if (from.size() > max_corners || to.size() != from.size()) return {};
+  // All triples of corners of larger faces would take too long. [time only]
+  if (from.size() > 24 || to.size() != from.size()) return {};
   for (const Isometry& map : candidates(from, to, gap))
     if (accepted(map)) return map;
   return {};

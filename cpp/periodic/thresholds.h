@@ -7,7 +7,5 @@ namespace carreau::thresholds::periodic {
 // Pairs (match_faces)
 /// Share of the model's diagonal by which an image may miss its face. [FacesThatDoNotMatchAreReported]
 inline constexpr double max_gap = 1e-4;
-/// Corners that are tried when a map is found by three of them.
-inline constexpr int max_corners = 24;
 
 }  // namespace carreau::thresholds::periodic

@@ -102,7 +102,7 @@ std::vector<FaceCollapse> collapses(CompositeRun& run) {
 }  // namespace
 
 void assemble_patches(CompositeRun& run) {
-  run.show_progress(Phase::assembly, 0, thresholds::patches::curves_share + thresholds::patches::patches_share);
+  run.show_progress(Phase::assembly, 0, ProgressShares::curves + ProgressShares::patches);
   separate_shared_chords(run);
   reject_degenerate(run);
   run.known.keep_flattened(

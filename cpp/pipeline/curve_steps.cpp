@@ -91,7 +91,7 @@ void grade_sizes(CompositeRun& run) {
   const auto start = std::chrono::steady_clock::now();
   run.monitor.progress(Phase::gradation, 0, 0);
   run.graded = grade_model(run.curve_model, run.rules, run.options, run.supports.diag, run.monitor, run.periodic);
-  run.begin = gradation_share;
+  run.begin = ProgressShares::gradation;
   run.result.graded = run.graded.field;
   run.result.report.gradation_rounds = run.graded.rounds;
   run.result.report.gradation_triangles = run.graded.triangles;
@@ -112,7 +112,7 @@ void discretise_curves(CompositeRun& run) {
     const std::size_t end = std::min(begin + at_once, n);
     run.monitor.checkpoint();
     run.show_progress(Phase::curves, run.topology.curves[begin].ref,
-             curves_share * static_cast<double>(begin) / static_cast<double>(n));
+             ProgressShares::curves * static_cast<double>(begin) / static_cast<double>(n));
     run_each(
         end - begin, alone, run.options.executor.threads, [&](std::size_t i, Monitor&) { cut_curve(run, begin + i, shared); },
         run.monitor);

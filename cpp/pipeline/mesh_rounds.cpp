@@ -19,7 +19,7 @@ std::ptrdiff_t failed_faces(const CompositeResult& result) {
 }
 
 void begin_again(CompositeRun& run) {
-  run.begin += (1 - run.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
+  run.begin += (1 - run.begin) * (ProgressShares::curves + ProgressShares::patches);
 }
 
 void mesh_discretised(CompositeRun& run) {

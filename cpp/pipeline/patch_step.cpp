@@ -153,7 +153,7 @@ std::vector<std::size_t> faces_to_share(const std::vector<double>& triangles, in
 void tell_progress(PatchJobs& work, std::size_t next) {
   if (next == work.jobs.size()) return;
   work.run.show_progress(Phase::patches, work.run.model.faces[work.face_of[next]].ref,
-                curves_share + patches_share * static_cast<double>(next) / static_cast<double>(work.jobs.size()));
+                ProgressShares::curves + ProgressShares::patches * static_cast<double>(next) / static_cast<double>(work.jobs.size()));
 }
 
 void finish(PatchJobs& work, std::size_t i, FaceOutcome outcome) {
@@ -202,7 +202,7 @@ void mesh_in_team(PatchJobs& work, Team& team) {
               .on_begun =
                   [&](std::size_t i, std::size_t begun) {
                     run.show_progress(Phase::patches, run.model.faces[work.face_of[i]].ref,
-                             curves_share + patches_share * static_cast<double>(begun) / static_cast<double>(work.jobs.size()));
+                             ProgressShares::curves + ProgressShares::patches * static_cast<double>(begun) / static_cast<double>(work.jobs.size()));
                   },
               .on_finished = [&](std::size_t i, FaceOutcome outcome) { finish(work, i, std::move(outcome)); }},
              run.monitor);

@@ -293,7 +293,8 @@ Pieces pieces_of_face(const Model& model, std::size_t face, const std::vector<Cu
           Samples samples;
           for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = jets[c * samples.size() + k].s;
           const Judgement judgement = judge(samples, smallest);
-          if ((judgement.in_u || judgement.in_v) && cell.depth < (judgement.known ? deepest : 8) && made < limit::max_cells) {
+          // A bound of memory.
+          if ((judgement.in_u || judgement.in_v) && cell.depth < (judgement.known ? deepest : 8) && made < 40'000) {
             add_children(cell, judgement, next);
             continue;
           }

@@ -6,6 +6,7 @@
 #include "projection/face_leaves.h"
 #include "projection/thresholds.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 
 namespace carreau::projection {
 
@@ -91,7 +92,7 @@ Landing descend(const SurfaceLeaf& leaf, const Vec3& x, const Vec2& from, double
   Vec2 w = from;
   Landing landing{w, infinity, leaf.size};  // the bound of a descent that does not converge
   double move = 0;
-  for (int k = 0; k < limit::steps_in_leaf; ++k) {
+  for (int k = 0; k < rounding_of::newton_steps; ++k) {
     const Expansion f = expansion_at(leaf.terms, x, w);
     const double d = f.square;
     if (k == 0 && known < d) {

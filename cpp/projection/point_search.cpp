@@ -63,10 +63,11 @@ void PointSearch::collect(std::span<const Vec3> points, double bound) {
   const Pieces& of_place = tree_->of(group.entity);
   const auto rank = static_cast<std::size_t>(group.piece);
   const bool on_leaf = rank < of_place.leaves.size();
-  const double most = limit::near_points * bound + limit::near_points_in_leaf * (on_leaf ? of_place.leaves[rank].size : 0);
+  // Points so near to each other share their pieces. [time only]
+  const double most = 0.08 * bound + 0.25 * (on_leaf ? of_place.leaves[rank].size : 0);
   Vec3 centre = x_;
   double reach = 0;
-  for (std::size_t n = std::min(points.size(), limit::points_that_share); n > 1; n = n / 2) {
+  for (std::size_t n = std::min<std::size_t>(points.size(), 32); n > 1; n = n / 2) {
     BoxTree::Box box;
     for (const Vec3& p : points.first(n)) box.add(p);
     const Vec3 middle = (box.low + box.high) / 2;
@@ -95,7 +96,8 @@ void PointSearch::collect(std::span<const Vec3> points, double bound) {
                                    if (piece.is_leaf) least = std::max(least, piece.turned.squared_distance(centre));
                                    if (least <= square) group.near.push_back({&piece, (1 - 1e-12) * std::sqrt(least)});
                                  }
-                                 few = group.near.size() <= limit::pieces_that_are_shared;
+                                 // If there are more pieces, each point searches on its own. [time only]
+                                 few = group.near.size() <= 256;
                                });
   if (few) group.centre = centre, group.reach = reach;
 }

@@ -17,21 +17,11 @@ inline constexpr double turn_of_leaf = 0.67;
 inline constexpr double error_of_leaf = 0.005;
 /// Factor. The surface between the samples may differ by so much more than at them.
 inline constexpr double error_margin = 3;
-/// Number of cells of a face; more are not cut. A bound of memory.
-inline constexpr std::size_t max_cells = 40'000;
 
 /// Shares of the parameters of a leaf. A step ends the search on the interpolation if the surface itself differs by more, or if it is as short
 /// as the second of them. The third: the expansion holds, so that it excludes a leaf that is farther than the bound.
 inline constexpr double last_step_in_leaf = 0.01, last_step_in_exact_leaf = 1e-4, expanded_step = 0.5;
-/// Number of steps on the interpolation.
-inline constexpr int steps_in_leaf = 8;
-/// Shares of the distance, and of the diameter of a leaf: points so near to each other share their pieces, at most so many. [time only]
-inline constexpr double near_points = 0.08, near_points_in_leaf = 0.25;
-inline constexpr std::size_t points_that_share = 32;
-/// Number of pieces. If there are more, each point searches on its own. [time only]
-inline constexpr std::size_t pieces_that_are_shared = 256;
-/// Number of searches whose places go to the host together. Their memory stays in the cache of a processor. [time only]
-inline constexpr std::size_t searches_together = 1024;
+
 // Newton's method (descent, restricted_step)
 /// Share of the length of a leaf. A full step of Newton's method that is shorter is the last one: the error of its Taylor expansion is
 /// then of third order, below rounding. [Projector.Sphere]

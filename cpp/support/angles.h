@@ -15,6 +15,9 @@ inline constexpr double cosine_of_45 = 0.7;
 inline constexpr double cosine_of_60 = 0.5;
 /// Lengths in a plane of projection are a fifth of lengths on the surface: the limit of a height field. [tests/cpp/atlas, ProjectedMeshes]
 inline constexpr double cosine_of_78 = 0.2;
+/// A triangle stands upright on the surface, or cells turn over. [AgreementBesideChords.AreNotDividedForEver,
+/// LayerRows.RowsOnCoarseFlanksDoNotTurnOver]
+inline constexpr double cosine_of_85 = 0.08;
 /// Sine or slope. Two surfaces, or two curves, touch rather than cross, or leave a corner as its tip. [FaceGap, Tongues.AreNotCutToTheirTips,
 /// CurvedElements.AreValidAtACusp]
 inline constexpr double touching = 0.1;

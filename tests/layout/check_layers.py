@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The layers of cpp/ and of the command: no include runs upwards, no folders include each other, and each type has a name of its own. CONTRIBUTING.md lists the rooms, each of which may use the rooms before it."""
+"""The layers of cpp/ and of the command: no include runs upwards, no folders include each other, each type has a name of its own, and algorithms do not name processes. CONTRIBUTING.md lists the rooms, each of which may use the rooms before it."""
 
 import pathlib
 import re
@@ -8,6 +8,8 @@ import sys
 from circles import circles
 
 MOST_FILES = 25  # in a folder: a reader does not take in more at a glance
+MOST_LINES = 500  # of a source of the trees
+PROCESSES = ("support/ranks/", "pipeline/", "session/")  # rooms that name the processes of a run; others pass an Executor on
 
 
 def listed_trees(contributing):
@@ -85,11 +87,16 @@ def complaints(root, name, rooms):
         if file.suffix not in {".h", ".cpp"}:
             continue
         path = file.relative_to(tree).as_posix()
+        text = file.read_text()
+        if (lines := text.count("\n")) > MOST_LINES:
+            yield f"{name}/{path} has {lines} lines; {MOST_LINES} at most"
+        if name == "cpp" and not path.startswith(PROCESSES) and re.search(r"\bTeam\b|[.>]team\b", re.sub(r"//.*", "", text)):
+            yield f"{name}/{path} names a team of processes; algorithms pass an Executor on"
         rank = room_of(path, rooms)
         if rank is None:
             yield f"{name}/{path} is in no room that CONTRIBUTING.md lists"
             continue
-        for included in re.findall(r'^#include "([^"]+)"', file.read_text(), re.M):
+        for included in re.findall(r'^#include "([^"]+)"', text, re.M):
             if not (tree / included).is_file():
                 yield f"{name}/{path} includes {included}, which is not in {name}"
             elif (other := room_of(included, rooms)) is None or other > rank:

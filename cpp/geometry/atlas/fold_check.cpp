@@ -104,7 +104,8 @@ class FoldSearch {
   /// A fold is mostly wider than its first place: if a cell has one, the repair needs places of the whole cell.
   void look_at(std::size_t triple, const Cell& cell) {
     if (look_at_cell(triple, cell, 0)) return;
-    constexpr int n = thresholds::grid_of_cell;
+    // Parts of the sides of a cell that has a fold: folds may be as narrow as .003 of T.
+    constexpr int n = 16;
     for (int i = 0; i <= n; ++i)
       for (int j = 0; i + j <= n; ++j)
         found_.places.push_back({triple, cell[0] + (i * (cell[1] - cell[0]) + j * (cell[2] - cell[0])) / n});

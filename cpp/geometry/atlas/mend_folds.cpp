@@ -203,13 +203,14 @@ class FoldMender {
   /// The energy after a step that is short enough, or the previous energy if no step is.
   double step_down(const std::vector<MendRow>& pulling, double& damping, double now) {
     const Blocks right = downhill(pulling);
-    for (; damping < thresholds::max_damping; damping *= 4) {
+    // Damping (Levenberg and Marquardt) in the unit of anchors: 1 at first.
+    for (; damping < 1e8; damping *= 4) {
       std::vector<double> weight = anchor_;
       for (double& w : weight) w += damping;
       const Blocks step = solve_step(gram_, weight, pulling, right);
       move(step, 1);
       if (const double then = energy(); then < now) {
-        damping = std::max(damping / 4, thresholds::min_damping);
+        damping = std::max(damping / 4, 1e-6);
         return then;
       }
       move(step, -1);

@@ -17,11 +17,6 @@ inline constexpr double bump_radius = 1.5;
 /// Rings around the vertices of a region whose ellipsoids may reach a place of it.
 inline constexpr int rings_away = 2;
 
-/// Parts of the grid on each T: some 1500 places that charts share. Folds are narrow: of the T of joint.off with folds
-/// on this grid, a grid of 24 parts misses two thirds, 48 parts three eighths.
-inline constexpr int grid_of_t = 96;
-/// Parts of the sides of a cell of the final check, if the cell has a fold: folds may be as narrow as .003 of T.
-inline constexpr int grid_of_cell = 16;
 /// Area of the surface over the area of its charts' planes: below, a place counts as turned over. The bound is above 0,
 /// because nearly folded places are meshed poorly.
 inline constexpr double least_jacobian = 0.25;
@@ -34,8 +29,6 @@ inline constexpr double watched_jacobian = 0.7;
 inline constexpr double loosening = 0.3, min_anchor = 1e-4;
 /// Steps of a round. Joint.off and spot need one round, the bunny three; the weight of distances is least after eight.
 inline constexpr int mend_steps = 30;
-/// Damping of steps (Levenberg and Marquardt), 1 at first, in the unit of anchors: limits.
-inline constexpr double min_damping = 1e-6, max_damping = 1e8;
 
 /// The final check: cells of the grid on each T, cells along a narrow strip between two knots of phi or of borders, divisions of the square around a pure
 /// zone before a place counts, divisions of a cell without a bound, and the factor on derivatives that bounds the area between places.

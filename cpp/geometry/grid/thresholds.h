@@ -9,7 +9,5 @@ namespace carreau::grid::thresholds {
 /// Turn at the joint of a closed grid (in the mean), or between lines of two blocks, radians. From this turn on the lines do not go on into
 /// one another: eight cells make a circle. [Glue.*, Coons.*]
 inline constexpr double closed_turn = std::numbers::pi / 4;
-/// ... or after so many sweeps: of a hole of 50 x 50 nodes 1e-3 is left. [Holes.*]
-inline constexpr int max_sweeps = 2000;
 
 }  // namespace carreau::grid::thresholds

@@ -34,6 +34,11 @@ inline double seconds_since(std::chrono::steady_clock::time_point start) {
 /// CompositeRun::keeper.
 inline constexpr int no_process = -1, all_have = 0;
 
+/// Shares of a run that progress shows: the gradation if there is one, then shares of the rest.
+struct ProgressShares {
+  static constexpr double gradation = 0.3, curves = 0.1, patches = 0.85;
+};
+
 /// The input of a run, the results of its steps so far, and its mesh. Keeps references to the input.
 struct CompositeRun {
   CompositeRun(const Model& given_model, const Topology& given_topology, const ModelSupports& given_supports,

@@ -10,9 +10,6 @@ namespace carreau::thresholds::patches {
 /// Times that a patch is meshed again because the lift disagrees.
 /// [Verification.DipsOfTheSizesThatNoSampleHitsAreMeshed]
 inline constexpr int max_corrections = 3;
-/// Rounds that sample a face again because it has missed places of small sizes. Each round finds the missed places
-/// beside known ones. [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
-inline constexpr int max_refills = 6;
 /// Ratio of triangles. A mesh with a larger ratio has not missed a place: its sizes are wrong nearly everywhere.
 /// [BadModels.SurfaceThatJumpsInManyPlaces]
 inline constexpr double max_growth = 1000;
@@ -26,10 +23,6 @@ inline constexpr double gentle = 1.5;
 inline constexpr double max_growth_bounded = 64;
 
 // Jumps of a surface (face_job)
-/// Edges that are checked before a patch is corrected; after that, all are. [BadModels.SurfaceThatJumpsInManyPlaces]
-inline constexpr std::size_t max_looked_at_first = 30;
-/// Share of coordinates, above the errors of evaluators. [as above]
-inline constexpr double jump_noise = 1e-10;
 
 // Short edges (patch_step)
 /// Share of the size prescribed at both ends. Sizes grow from edges that are shorter than this share. A curve cut into
@@ -40,17 +33,6 @@ inline constexpr double short_share = 0.7;
 // Guarantees (curve_steps)
 /// Halvings of an edge that leaves its curve: to a sixteenth of a unit edge. [CurveAccuracy.*]
 inline constexpr int max_curve_halvings = 4;
-
-// Progress (curve_steps, run)
-/// Shares of the run: the gradation if there is one, then shares of the rest for curves and for patches.
-/// [GradedModel.ReportsItsProgressAndStops]
-inline constexpr double gradation_share = 0.3, curves_share = 0.1, patches_share = 0.85;
-
-// Memory (run)
-/// Bytes that a triangle may cost while a patch is meshed, with the mesh itself and copies. Twice the memory of a whole
-/// process (docs/scale.md) leaves room for metrics, curved elements and copies of hosts.
-/// [Memory.AMillionTrianglesNeedAtMostFortyBytesEachAboveTheMesh]
-inline constexpr double bytes_per_triangle = 200;
 
 }  // namespace carreau::thresholds::patches
 

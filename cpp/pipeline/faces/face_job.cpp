@@ -42,7 +42,7 @@ bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
     else
       from = middle, p = m;
   }
-  return norm(q - p) > shares::notable * whole + jump_noise * std::max(norm(p), norm(q));
+  return norm(q - p) > shares::notable * whole + rounding_of::places * std::max(norm(p), norm(q));
 }
 
 /// Adds the time of its life.
@@ -198,7 +198,8 @@ void FaceJob::lift(Monitor& monitor) {
     }
   }
   // Samples at a jump require triangles without end.
-  refuse_jumps(max_looked_at_first, monitor);
+  // Checks so many edges before the patch is corrected, later all. [BadModels.SurfaceThatJumpsInManyPlaces]
+  refuse_jumps(30, monitor);
   const bool again = refill_undersampled(places, monitor);
   if ((!places.empty() && corrections_ < max_corrections && sample_again(places, monitor)) || again) {
     next_ = Step::mesh;
@@ -321,7 +322,7 @@ void FaceJob::return_to_host(Monitor& monitor) {
 // True if the mesh has missed places that the control space knows correctly. Adds other places to `places`.
 bool FaceJob::refill_undersampled(std::vector<Vec2>& places, Monitor& monitor) {
   const std::size_t vertices = mesh_->plane.vertices.size();
-  if (refills_ == max_refills || vertices <= vertices_when_refilled_ || input_.constant_size) return false;
+  if (refills_ == work_bounds::rounds || vertices <= vertices_when_refilled_ || input_.constant_size) return false;
   if (space_->measure() > max_growth * static_cast<double>(mesh_->plane.triangles.size())) return false;
   const Stopwatch watch(report_.seconds_lift);
   UndersampledRegions found = find_undersampled(input_, *space_, *cad_, *rules_, *mesh_, monitor);

@@ -36,7 +36,8 @@ double coarse_edge(double triangles) {
 
 // Empty if separators find no way.
 std::optional<Pieces> cut(const ZoneContext& context, double a_piece) {
-  const double wanted = std::min(context.known.triangles / a_piece, max_sectors);
+  // Pieces reach from the border to the meeting of the layers: more of them would become narrow.
+  const double wanted = std::min(context.known.triangles / a_piece, 64.);
   const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish together
   if (parts < 2) return {};
   const double edge = coarse_edge(context.known.triangles);

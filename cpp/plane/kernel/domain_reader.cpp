@@ -17,7 +17,9 @@ double scale_for(double low, double high, const Vec2& where) {
   const double half = 0.5 * high - 0.5 * low;
   if (!(half > 0)) throw_at(where, "the domain has no area: all its vertices lie on one line of constant u or v");
   const int exponent = std::ilogb(half) + 1;
-  if (exponent < min_exponent || exponent > largest_exponent)
+  // Below, coordinates inside would lose their last bits to underflow; above 2^1020 the box overflows. [boundary_test, tiny and huge
+  // coordinates]
+  if (exponent < -900 || exponent > 1020)
     throw_at(where, "the domain is too small or too large for double precision numbers");
   return std::ldexp(1.0, -exponent);
 }

@@ -48,16 +48,6 @@ inline constexpr std::size_t fewest_for_lattice = 4000;
 /// Squared units. Within this distance the metric or chart of the new point replaces the others; a chart's error grows
 /// with its cube. [7 and 11: longest edges on turning fields 2.5 to 2.0, equal Q2 of smooth ones]
 inline constexpr double near2 = 9;
-/// Triangles. Length of a walk after which it turns at random: in a triangulation that is not Delaunay a fixed order
-/// could go round in circles. [20 and 80: no figure changes; without it a walk may not end]
-inline constexpr std::size_t fixed_order_steps = 40;
-/// Triangles. Larger meshes do not fit in the cache and are sorted once. [time only]
-inline constexpr std::size_t renumbered_from = 200'000;
-/// Power of 2. Extent of the domain's box: below, coordinates inside would lose their last bits to underflow.
-/// [boundary_test, tiny and huge coordinates]
-inline constexpr int min_exponent = -900;
-/// Power of 2. Above, the box overflows. [boundary_test, tiny and huge coordinates]
-inline constexpr int largest_exponent = 1020;
 
 // Distances of new points (placement)
 /// Units. Circumradius of a triangle that is small enough (equilateral: 0.577). [0.56: 20 % fewer triangles than
@@ -78,10 +68,6 @@ inline constexpr double last_distance = 0.6;
 /// Units. Distance of points on long edges of bent triangles, which join distant places: crowded points are removed in
 /// the end, but edges that cannot be swapped would stay. [0.2 and 0.3: worst of swirl at 51 : 1 0.36 to 0.34 and 0.33]
 inline constexpr double bent_edge_distance = 0.25;
-/// Triangles on the way to a circumcentre. In a metric that is stretched a thousand times, the circumcentres of flat
-/// triangles lie at the other end of the mesh, and no point is needed there. [Of 260 000 that gave a point none was 256
-/// away: the examples, the CAD files at 2 %, 5 %, by angle and by direction]
-inline constexpr int farthest_circumcentre = 256;
 /// Units. Distance of a seed: never reached in a triangle that is small enough, nor in one that circumcentre insertion
 /// leaves. [UndersampledRegions.AreMeshed]
 inline constexpr double seed_distance = 1;
@@ -136,16 +122,12 @@ inline constexpr double largest_rise = 0.05;
 /// Share of the length. A long edge of a bent triangle is swapped for one so much shorter. [0.7 and 1.1: longest
 /// edge of swirl at 51 : 1 2.4 to 2.6 and 2.8]
 inline constexpr double shorter_edge = 0.9;
-/// Points. On one edge in one pass; the next passes see to the rest. [memory only]
-inline constexpr int max_pieces = 4096;
 
 // Degenerate sides (placement/degenerate_sides)
 /// Rays. 0.2 units apart round a pole, if all are equal. [16 and 66: no figure changes, only bits]
 inline constexpr int rays = 33;
-/// Units. Between rays at unit height; else there are more of them, [metrics that differ by direction at a pole]
+/// Units. Between rays at unit height; else there are more of them. [metrics that differ by direction at a pole]
 inline constexpr double widest_ray_gap = 0.4;
-/// Rays. up to these. [time only]
-inline constexpr std::size_t max_rays = 512;
 /// Units. Between places on a ray. [0.04 and 0.06: no figure changes, only bits]
 inline constexpr double ray_step = 0.05;
 /// Steps. 1.5 units: a layer fits between the ring and the domain beyond it. [15: degrees of six on a coarse cone 87 to
@@ -164,10 +146,8 @@ inline constexpr double longest_lateral = 1.6;
 /// 10, but 6 of 42 meshes change]
 inline constexpr int delaunay_passes = 10;
 /// Share of the least eigenvalue. Metrics of corners that differ by no more are similar (settled.h). [by the proof
-/// there; time only, as the next five]
+/// there; time only]
 inline constexpr double alike_share = 0.2;
-/// Cosine. Largest angle of a triangle whose edges need no test: more than the 0.125 that metrics may err by.
-inline constexpr double acute_cosine = 0.2;
 /// Squared units, and shortest edges of the triangle. Longer than any edge that points a unit apart leave.
 /// [MeshPlane.LongStripsAreDelaunayInTheMetric, LongStripsOfOneLayerDoNotLean]
 inline constexpr double long_edge2 = 9;
@@ -193,11 +173,6 @@ inline constexpr double pull_even = 0.05;
 /// Share. Weight in graded sizes, whose lengths are less accurate. [0.08 and 0.12: longest edges at slope 0.26 1.45 to
 /// 1.46 and 1.43, worst 0.81 to 0.82 and 0.80]
 inline constexpr double pull_graded = 0.1;
-/// Root of the determinant over the trace. Bound for metrics in single precision.
-/// [MeshPlane.WildMetricsStillGiveAValidMesh]
-inline constexpr double max_stretched = 1e-15;
-/// Root of the determinant. The same. [MeshPlane.WildMetricsStillGiveAValidMesh]
-inline constexpr double min_root = 1e-30;
 
 // Bad triangles (optimise/bad_triangles, mending)
 /// Q2 in the mean metric of the vertices. Worse ones are tested: these metrics are at hand. [0.68: shapes are
@@ -216,12 +191,6 @@ inline constexpr double over_short_edge = 0.9;
 inline constexpr double crowded_length2 = 0.52;
 /// Squared units. Length of the remaining edges, [2.6: length on a coarse disc 1.01 to 1.06]
 inline constexpr double longest_uncrowded2 = 2.1;
-/// Shapes. Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing
-/// but bad triangles. It is counted in shapes, since a fine boundary far from all other vertices gives stars of
-/// thousands. This minimum is a few tenths of a second, [time only; 2 million: coarse swirl at 51 : 1 is cut off]
-inline constexpr std::int64_t mending_shapes = 4'000'000;
-/// Shapes. [time only]
-inline constexpr std::int64_t mending_shapes_a_triangle = 24;
 /// Longest sides. Good triangles of metrics have the inverse of the metric's ratio, some ten thousand at most; points
 /// on edges are on them up to rounding. [AnisotropicField.FieldsThatEdgesCannotFollowLeaveNoFlatTriangle]
 inline constexpr double flat_height = 1e-7;
@@ -229,18 +198,13 @@ inline constexpr double flat_height = 1e-7;
 // Local search (optimise/local_search, search_zone, zone_moves)
 /// Q2. Better triangles are left alone. [LocalSearch; 0.92: twice the time, and no worst one is raised]
 inline constexpr double searched_quality = 0.88;
-/// Q2 in the mean metric of the corners, if these are similar. Better triangles are no worse than searched_quality in
-/// the metric of their middle. [0.9: all of 63 meshes stay; time only]
-inline constexpr double surely_not_searched = 0.93;
-/// Shapes. Work is bounded by a multiple of the mesh, [time only, as the next four]
+/// Shapes. Work is bounded by a multiple of the mesh, [time only, as the next three]
 inline constexpr std::int64_t search_shapes = 16'000;
 /// Shapes.
 inline constexpr std::int64_t search_shapes_a_triangle = 48;
 /// Shapes. The limit until the first success, and for each triangle: strips between fixed borders cannot be improved.
 /// [an eighth of the limit: mambo_s34.step by direction changes]
 inline constexpr std::int64_t first_search_shapes = 2'400, first_search_shapes_a_triangle = 4;
-/// Shapes. Increase of the limit for each success.
-inline constexpr std::int64_t search_shapes_a_success = 12'000;
 /// Share of the mean cost. Required gain of a change; twice as much for a round of moves that another follows. [0.8 to 1.25
 /// times: no figure changes; ends the search]
 inline constexpr double change_gain = 0.01;
@@ -256,8 +220,6 @@ inline constexpr double longest_left2 = 2.4;
 inline constexpr double shortest_left2 = 0.4;
 /// Squared units. Length of an edge that is split. [0.9: 7 of 17 meshes change, degrees of six on ellipses 73 to 67 %]
 inline constexpr double min_split2 = 1.1;
-/// Q2. Shape of triangles that a collapse leaves, before moves. [0.04: no figure changes]
-inline constexpr double min_collapse_quality = 0.05;
 /// Cost. The cost of a triangle of Q2 .97: vertices amid such triangles need not move. [time only]
 inline constexpr double cheap_enough = 0.2;
 /// Moves. At one distance. [1: p1 of ellipses 0.88 to 0.86; 6: as 3]
@@ -279,8 +241,6 @@ inline constexpr double large_square_radius = 1;
 inline constexpr double min_cross = 0.7;
 /// Units. Edges of the mesh that carries crosses, away from the boundary: they are smooth there.
 inline constexpr double background_size = 1.6;
-/// Triangles expected. In smaller domains crosses turn too much within such an edge.
-inline constexpr double many_for_background = 4000;
 /// Nodes of the coarsest level, and sweeps on the others.
 inline constexpr std::size_t coarsest_crosses = 50;
 inline constexpr int cross_sweeps = 6;
@@ -291,8 +251,6 @@ inline constexpr double cross_at_rest = 1e-5;
 /// Triangles. Approximate size of a piece; smaller domains are not divided. From four pieces on separators have longer edges, since one
 /// thread makes the coarse mesh. [90 000: a fifth more time on one thread at a million]
 inline constexpr double triangles_a_piece = 250'000;
-/// Pieces reach from the border to the meeting of the layers: more of them would become narrow.
-inline constexpr double max_sectors = 64;
 /// Units. Length of the edges of the coarse mesh, on which separators lie. [12: sphere has 1200 triangles fewer,
 /// degrees of six 99.0 to 98.7 %]
 inline constexpr double separator_length = 8;

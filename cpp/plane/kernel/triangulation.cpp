@@ -21,7 +21,9 @@ int Triangulation::walk(const Vec2& p, int hint, std::size_t max_steps) const no
     const Triangle& now = T[t];
     // In a triangulation that is not Delaunay a fixed order could go round in circles.
     int first = 0;
-    if (step > fixed_order_steps) {
+    // In a triangulation that is not Delaunay a fixed order could go round in circles. [20 and 80: no figure changes; without it a walk may
+    // not end]
+    if (step > 40) {
       turn = turn * 1664525U + 1013904223U;
       first = static_cast<int>((turn >> 16) % 3);
     }
@@ -63,7 +65,8 @@ int Triangulation::locate(const Vec2& p, int hint) const noexcept {
 }
 
 void Triangulation::renumber_if_large() {
-  if (triangles.size() < renumbered_from) return;
+  // Larger meshes do not fit in the cache and are sorted once. [time only]
+  if (triangles.size() < 200'000) return;
   // Counting sort by the largest vertex of each.
   const auto key = [](const Triangle& T) { return std::max({T.v[0], T.v[1], T.v[2]}); };
   std::vector<std::int32_t> next(vertices.size() + 1, 0), rank(triangles.size());

@@ -44,7 +44,9 @@ std::vector<std::int32_t> help(PlaneWork& work, Helped helped, Settled& settled)
     if (t % work_sizes::steps == 0) work.monitor.checkpoint();
     if (!settled.is_good(t) && needs_help(work, helped, t)) open.push_back(t);
   }
-  const std::int64_t budget = std::max(mending_shapes, mending_shapes_a_triangle * total);
+  // Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing but bad triangles. It is counted
+  // in shapes, since a fine boundary far from all other vertices gives stars of thousands. The minimum is a few tenths of a second. [time only; 2 million: coarse swirl at 51 : 1 is cut off]
+  const std::int64_t budget = std::max<std::int64_t>(4'000'000, 24 * total);
   std::int64_t checked = 0;
   Mending mending{work};
   if (!open.empty()) mending.failed_moves.clear(), mending.failed_points.clear();

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/shape_levels.h"
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/zone_moves.h"
 #include "support/infinity.h"
@@ -29,7 +30,7 @@ struct Change {
 bool collapse_best(SearchZone& zone, int v) {
   Triangulation& mesh = zone.work.mesh;
   if (!zone.star.collect(mesh, v) || has_imposed_spoke(mesh, zone.star, v)) return false;
-  const int into = best_collapse(zone.star, min_collapse_quality, rounding_of::sizes,
+  const int into = best_collapse(zone.star, shape_level::flat, rounding_of::sizes,
                                  [&](int p, int q, int r, bool) { return zone.shape(p, q, r); });
   if (into < 0) return false;
   collapse(mesh, zone.star, v, into);
@@ -207,7 +208,8 @@ void search_around_bad_triangles(PlaneWork& work, const Settled& settled, const 
       const bool better = improve_around(zone, t, normals != nullptr);
       bad.note_search(t);
       if (!better) continue;
-      allowed += search_shapes_a_success;
+      // Each success raises the limit. [time only]
+      allowed += 12'000;
       bad.note_changes(zone.triangles);
       any = true;
     }

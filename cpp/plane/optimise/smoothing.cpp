@@ -90,7 +90,8 @@ void prepare(const Triangulation& mesh, SmoothingArrays& arrays, bool by_size) {
       arrays.heights.push_back(equilateral_height(root_of_determinant(m)));
     } else {
       // Numbers that fit into single precision, whatever the metric.
-      const double root = std::max({root_of_determinant(m), max_stretched * (m.a + m.c), min_root});
+      // Bounds for metrics in single precision. [MeshPlane.WildMetricsStillGiveAValidMesh]
+      const double root = std::max({root_of_determinant(m), 1e-15 * (m.a + m.c), 1e-30});
       const double height = equilateral_height(root);
       const auto single = static_cast<float>(std::sqrt(root));
       weight = single;

@@ -21,7 +21,8 @@ void place_on_edge(const Placement& placement, int t, int i, std::vector<Candida
                     length(mesh.vertices[b].metric(), q - p)) /
                    6;
   if (!(l > std::numbers::sqrt2)) return;
-  const int pieces = std::max(2, static_cast<int>(std::min(l + 0.5, static_cast<double>(max_pieces))));
+  // On one edge in one pass, a bound of memory; the next passes see to the rest.
+  const int pieces = std::max(2, static_cast<int>(std::min(l + 0.5, 4096.)));
   for (int k = 1; k < pieces; ++k) points.push_back({lerp(p, q, static_cast<double>(k) / pieces), {}, 4 * t + i, a});
 }
 

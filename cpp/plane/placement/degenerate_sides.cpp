@@ -70,7 +70,8 @@ Ring sample_ring(const Placement& placement, const DegenerateSide& side) {
     ring.ray.push_back(ray_at(share.back()));
   }
   // If sizes differ by direction, rays that are evenly spaced in the frame are not so in the metric.
-  for (std::size_t k = 0; k + 1 < ring.ray.size() && ring.ray.size() < max_rays;) {
+  // More rays only take time.
+  for (std::size_t k = 0; k + 1 < ring.ray.size() && ring.ray.size() < 512;) {
     const auto &ray = ring.ray[k], &next = ring.ray[k + 1];
     const std::size_t unit = std::min({static_cast<std::size_t>(1 / ray_step), ray.size() - 1, next.size() - 1});
     const double middle = 0.5 * (share[k] + share[k + 1]);

@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 /// A mesh of this domain whose vertices know the field, with larger triangles inside if there are many.
 Triangulation background_of(const Placement& placement) {
   Triangulation background = placement.mesh;
-  const bool many = placement.field.measure() >= many_for_background;
+  const bool many = placement.field.measure() >= fewest_for_lattice;
   const Field coarse = placement.field.coarser(many ? background_size : 1);
   PlaneWork work{background, coarse, placement.monitor};
   Placement filling(work, placement.max_triangles);

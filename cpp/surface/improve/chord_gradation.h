@@ -15,6 +15,7 @@
 #include "metric/metric3_algebra.h"
 #include "metric/unit_edge.h"
 #include "support/shares.h"
+#include "support/work_bounds.h"
 #include "surface/improve/assembled_search.h"
 #include "surface/improve/corner_agreement.h"
 #include "surface/improve/evening.h"
@@ -49,7 +50,7 @@ class ChordGradation {
   using Vertex = EditableMesh::Vertex;
   using Place = EditableMesh::Place;
   static constexpr double good = shape_level::bad;
-  static constexpr Rings rings{.ascending = true, .most = thresholds::chord_gradation::max_rings};
+  static constexpr Rings rings{.ascending = true, .most = work_bounds::passes};
   static constexpr bool divides = false;
   static constexpr auto size_of = geometric_mean_size;
 

@@ -33,7 +33,8 @@ struct EveningJudgement : TriangleShapes {
     return out <= before.out && change.keeps_shapes(good) && change.keeps_surface();
   }
   [[nodiscard]] bool improves(const EveningJudgement& before, double good) const noexcept {
-    return excess < before.excess - thresholds::evening::min_gain && no_worse_than(before, good);
+    // A gain in the sum of the excesses, so that changes come to an end.
+    return excess < before.excess - 1e-4 && no_worse_than(before, good);
   }
 };
 

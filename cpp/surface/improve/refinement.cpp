@@ -205,12 +205,12 @@ class Refinement {
     };
     if (known_)
       for (const std::int32_t v : c) compare(mesh_.normal[v]);
-    if (least < thresholds::lift::min_agreement) return least;
+    if (least < angles::cosine_of_85) return least;
     const auto& uv = mesh_.plane.vertices;
     compare(unit_normal(jet_at((1. / 3) * (uv[c[0]] + uv[c[1]] + uv[c[2]]))).value_or(Vec3{}));
     return least;
   }
-  [[nodiscard]] bool agrees(const Triangle& c) { return agreement(c) >= (known_ ? thresholds::lift::min_agreement : 0); }
+  [[nodiscard]] bool agrees(const Triangle& c) { return agreement(c) >= (known_ ? angles::cosine_of_85 : 0); }
 
   // A division, or a swap, that completes the work on the triangle.
   bool mend(int t) {
@@ -222,7 +222,7 @@ class Refinement {
   // The other diagonal of a quadrilateral, when both triangles agree with the surface and seem near then. The best of
   // three.
   bool swap_one(int t) {
-    double best = thresholds::lift::min_agreement;
+    double best = angles::cosine_of_85;
     std::optional<Quad> found;
     for (int i = 0; i < 3; ++i) {
       const auto q = quad(t, i);

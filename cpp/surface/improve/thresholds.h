@@ -33,22 +33,10 @@ namespace assembled {
 inline constexpr int rings = 3;
 }  // namespace assembled
 
-/// Both criteria of neighbouring edges (improve/even_edges_test, grade/gradation_test).
-namespace evening {
-/// Share of the limit. Gain of a change in the sum of the excesses, so that changes come to an end.
-inline constexpr double min_gain = 1e-4;
-}  // namespace evening
-
 /// Ratios of lengths at a vertex (improve/even_edges_test, grade/gradation_test).
 namespace length_ratio {
 /// Times that a new vertex is moved.
 inline constexpr int placements = 4;
 }  // namespace length_ratio
-
-/// Gradation along chords (grade/gradation_test, guarantees_test).
-namespace chord_gradation {
-/// Rings of changes that follow each other.
-inline constexpr int max_rings = 10;
-}  // namespace chord_gradation
 
 }  // namespace carreau::thresholds

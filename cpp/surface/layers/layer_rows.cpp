@@ -8,6 +8,7 @@
 
 #include "predicates/polygon_locator.h"
 #include "predicates/predicates.h"
+#include "support/angles.h"
 #include "surface/domain/domain_check.h"
 #include "surface/layers/row_face.h"
 #include "surface/layers/row_obstacles.h"
@@ -142,7 +143,7 @@ class RowMaker {
   // In (u, v), and in space about the normal of the surface at the upper edge.
   [[nodiscard]] bool turns_left(int a, int b, int c, const Vec3& normal) const {
     const Vec3 area = cross(face_.xyz(b) - face_.xyz(a), face_.xyz(c) - face_.xyz(a));
-    return turns_left(a, b, c) && dot(area, normal) > min_cell_agreement * norm(area);
+    return turns_left(a, b, c) && dot(area, normal) > angles::cosine_of_85 * norm(area);
   }
   [[nodiscard]] Vec3 normal_of(int v) const {
     const std::size_t n = face_.plane.vertices.size(), k = static_cast<std::size_t>(v);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/rounding_of.h"
 #include "support/shares.h"
 #include "surface/layers/row_face.h"
 #include "surface/layers/surface_step.h"
@@ -78,7 +79,7 @@ std::vector<ColumnPlace> middle_column(Cad& cad, int face, const ColumnPlace& ba
 ColumnPlace dividing_place(Cad& cad, int face, const ColumnPlace& low, const ColumnPlace& high, double share) {
   ColumnPlace place = low;
   double t = share;
-  for (int k = 0; k < thresholds::layers::max_divisions_of_step; ++k) {
+  for (int k = 0; k < rounding_of::newton_steps; ++k) {
     place.uv = low.uv + t * (high.uv - low.uv);
     place.xyz = surface_at(cad, face, want_position, place.uv).s;
     const double below = norm(place.xyz - low.xyz), above = norm(high.xyz - place.xyz);

@@ -23,12 +23,7 @@ inline constexpr double lean_reach = 2;
 inline constexpr double min_clearance = 0.85;
 /// Share of the height of the last row that the rows keep from edges without layers. [LayerRows.RowsThatMeetEnd]
 inline constexpr double wall_clearance = 0.5;
-/// Least cosine between the normals of halves of cells and of the surface: one of triangles that stand upright is below.
-/// [LayerRows.RowsOnCoarseFlanksDoNotTurnOver]
-inline constexpr double min_cell_agreement = 0.08;
 /// Share of the edge below that the upper edge of a cell keeps. [LayerRows.RowsThatMeetEnd]
 inline constexpr double min_narrowing = 0.2;
-/// Trials for a place that divides a step of a column. Parameters of even speed need one.
-inline constexpr int max_divisions_of_step = 8;
 
 }  // namespace carreau::thresholds::layers

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "support/angles.h"
 #include "support/format.h"
 #include "support/infinity.h"
 #include "surface/lift/thresholds.h"
@@ -100,7 +101,7 @@ SurfaceAgreement measure_agreement(const PatchInput& input, Cad& cad, const std:
   Pieces pieces(input, cad, mesh);
   for (const int t : doubtful) {
     const Vec3 n = normal_of(mesh, static_cast<std::size_t>(t)), m = pieces.over(t).vector;
-    if (dot(n, m) >= min_agreement * norm(n) * norm(m)) continue;
+    if (dot(n, m) >= angles::cosine_of_85 * norm(n) * norm(m)) continue;
     ++agreement.turned;
     agreement.turned_triangles.push_back(t);
   }

@@ -26,9 +26,6 @@ inline constexpr std::size_t max_places = 500;
 /// Share of the area. A larger excess over the surface's area is reported; unit meshes by curvature have some 1e-4.
 /// [surface: AgreementBesideChords]
 inline constexpr double notable_area = 0.05;
-/// Cosine of the normals of a triangle and of its part of the surface: 85 degrees, as for triangles that are divided
-/// (surface/improve). [surface: AgreementBesideChords.AreNotDividedForEver]
-inline constexpr double min_agreement = 0.08;
 /// Parts along each side into which a triangle of (u, v) is divided for the test. [surface: SurfaceAgreement]
 inline constexpr int parts = 4;
 

@@ -11,8 +11,6 @@ namespace carreau::thresholds::narrow {
 /// Widths. A round or bent end of a strip is longer than the strip is wide: half a circle has 1.57 times its diameter.
 /// [Narrow.WedgeCollapses]
 inline constexpr double longest_end_cap = 2;
-/// Curves. The search for sides tests all pairs of ends: a face with more curves is skipped. [time only]
-inline constexpr std::size_t max_curves = 60;
 /// Places on a loop that decide the sense in which the other loop runs. [Narrow.RingBetweenCylindersCollapses]
 inline constexpr int probes = 12;
 /// Gaps. A face is without width if its surface, halfway between two uses of a curve, is within this distance from

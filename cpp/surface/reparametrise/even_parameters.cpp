@@ -121,7 +121,7 @@ class Evener {
         else if (chords[k] > finest * total)
           refuse_jump(axis, 0.5 * (a + b), finer.back(), rows[k + 1], lines);
       }
-      const bool done = finer.size() == rows.size() || finer.size() > max_places;
+      const bool done = finer.size() == rows.size() || finer.size() > 3000;
       rows.swap(finer);
       if (done) break;
     }
@@ -243,7 +243,7 @@ ControlSpace returned_to_host(const PlaneDomain& host, const Reparametrisation& 
       metric[k] = scaled(space.at(p), 1 / map.u.jet(p.x()).first, 1 / map.v.jet(p.y()).first);
     }
   };
-  return ControlSpace::build(sampled_domain(host), sampler, {.max_samples = most_samples}, monitor);
+  return ControlSpace::build(sampled_domain(host), sampler, {.max_samples = 20'000}, monitor);
 }
 
 }  // namespace carreau

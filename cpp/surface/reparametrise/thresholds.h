@@ -10,13 +10,11 @@ namespace carreau::thresholds::reparametrise {
 /// Places. The first ones, as many at boundary vertices, and lines across at such places.
 /// [UnevenParameters.FastAlongBoth]
 inline constexpr std::size_t first_places = 16;
-/// Share of the length of all. No piece of a parameter has a longer chord,
+/// Share of the length of all. No piece of a parameter has a longer chord.
 /// [UnevenParameters.FastWithinAMillionthInside]
 inline constexpr double finest = 1.0 / 128;
-/// Share of the domain. unless it is as narrow as this; a chord of the share above is a jump then. [rounding]
+/// Share of the domain. Narrower pieces are not divided; a chord of the share above is a jump then. [rounding]
 inline constexpr double narrowest = 1e-13;
-/// Largest number of places on a parameter. [time only]
-inline constexpr std::size_t max_places = 3000;
 /// Ratio. If all lines of a family together are longer than this factor times the longest one, fast places differ from
 /// line to line. [UnevenParameters.FastAlongASlantedLine]
 inline constexpr double max_detours = 8;
@@ -32,7 +30,5 @@ inline constexpr double shortest = 1e-7;
 // Back to the host's (u, v)
 /// Share of the quality in space of two triangles, which a swap must leave. [UnevenParameters.NeighboursAndImposed...]
 inline constexpr double min_kept = 0.5;
-/// Samples. Largest number in the control space that is carried back. [time only]
-inline constexpr std::size_t most_samples = 20'000;
 
 }  // namespace carreau::thresholds::reparametrise

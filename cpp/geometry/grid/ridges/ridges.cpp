@@ -12,6 +12,7 @@
 #include "geometry/grid/differences.h"
 #include "geometry/grid/ridges/thresholds.h"
 #include "support/angles.h"
+#include "support/rounding_of.h"
 
 namespace carreau::grid {
 
@@ -53,7 +54,7 @@ class Nodes {
     for (std::size_t k = 0; k < count; ++k) {
       const Node &a = along_u ? surface_.node(0, k) : surface_.node(k, 0), &b = along_u ? surface_.node(last, k) : surface_.node(k, last);
       const Vec3 &p = along_u ? a.su : a.sv, &q = along_u ? b.su : b.sv;
-      if (is_finite(a.s) != is_finite(b.s) || norm(a.s - b.s) > 0 || norm(p - q) > thresholds::ridges::same_slope * norm(p)) return false;
+      if (is_finite(a.s) != is_finite(b.s) || norm(a.s - b.s) > 0 || norm(p - q) > rounding_of::sizes * norm(p)) return false;
     }
     return true;
   }
@@ -73,7 +74,7 @@ struct Forms {
     mean = (e * p - 2 * f * m + g * l) / (2 * area);
     half = std::sqrt(std::max(0., mean * mean - (l * p - m * m) / area));
   }
-  [[nodiscard]] bool singular() const { return !(area > thresholds::ridges::flat_node * e * g); }
+  [[nodiscard]] bool singular() const { return !(area > rounding_of::heights * e * g); }
 };
 
 /// Both principal curvatures, the larger one first; NaN at singular nodes.

@@ -4,10 +4,6 @@
 
 namespace carreau::grid::thresholds::ridges {
 
-/// Relative difference of the slopes on both sides of the joint of a closed surface. [Ridges.*]
-inline constexpr double same_slope = 1e-6;
-/// Squared sine of the angle of parameter lines, below which a node is singular. [Ridges.*]
-inline constexpr double flat_node = 1e-12;
 /// Least fall of the curvature k across a ridge: its second derivative is so many k^3. An ellipse of axes a, b has 3 (1 - (b / a)^2) there; the
 /// circle 0. [Ridges.CirclesHaveNone]
 inline constexpr double min_fall = 0.1;
