@@ -12,13 +12,13 @@
 #include "association/mesh_curves.h"
 #include "high_order/thresholds.h"
 #include "mesh/local_search.h"
+#include "mesh/nodes_by_place.h"
 #include "periodic/closest.h"
 #include "periodic/thresholds.h"
 #include "support/error.h"
 #include "support/infinity.h"
 #include "support/pieces.h"
 #include "support/rounding_of.h"
-#include "surface/carry/nodes_by_place.h"
 
 namespace carreau {
 
