@@ -364,8 +364,8 @@ CARREAU_API carreau_status carreau_triangles_measure(carreau_session* session, c
 
 /* Cuts triangles into four by the middles of their edges on the smooth surface while their normals differ from it by
  * more than `angle` degrees, at most `depth` times, and puts them into a mesh that carreau_mesh_create made. Depth 0: the
- * repaired triangles. Edges are the edges of lines. Errors: SEQUENCE (no triangles were given), ARGUMENT, LIMIT
- * (max_triangles). */
+ * repaired triangles. Edges are the edges of lines. Periodic pairs of a file .msh stay pairs. Errors: SEQUENCE (no
+ * triangles were given), ARGUMENT, LIMIT (max_triangles). */
 CARREAU_API carreau_status carreau_triangles_refine(carreau_session* session, double angle, int32_t depth,
                                                     carreau_mesh* mesh);
 

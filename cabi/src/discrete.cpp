@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "arguments.h"
@@ -86,6 +89,26 @@ const discrete::DiscreteSurface& surface_of(const carreau_session& session) {
   return session.triangles->discrete();
 }
 
+/// Pairs of the files by vertices of the surface, which have the same places.
+std::vector<carreau::PeriodicLink> periodic_of(const carreau_session& session, const discrete::DiscreteSurface& surface) {
+  const auto key = [](const carreau::Vec3& p) { return std::array{p.x(), p.y(), p.z()}; };
+  std::map<std::array<double, 3>, std::int32_t> vertex;
+  const std::vector<carreau::Vec3>& places = surface.mesh().vertices;
+  for (std::size_t v = 0; v < places.size() && !session.periodic_files.empty(); ++v) vertex.emplace(key(places[v]), std::int32_t(v));
+  std::vector<carreau::PeriodicLink> links;
+  for (const FlatMesh& file : session.periodic_files)
+    for (carreau::PeriodicLink link : file.periodic) {
+      std::vector<std::array<std::int32_t, 2>> nodes;
+      for (const auto& [slave, master] : link.nodes) {
+        const auto w = vertex.find(key(file.vertices[std::size_t(slave)])), v = vertex.find(key(file.vertices[std::size_t(master)]));
+        if (v != vertex.end() && w != vertex.end()) nodes.push_back({w->second, v->second});
+      }
+      link.nodes = std::move(nodes);
+      if (!link.nodes.empty()) links.push_back(std::move(link));
+    }
+  return links;
+}
+
 /// The mesh of the session, without faces of other geometries.
 FlatMesh mesh_of_triangles(const carreau_session& session) {
   if (!session.session.has_mesh()) throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh yet");
@@ -137,7 +160,13 @@ carreau_status carreau_load_triangles(carreau_session* session, const carreau_tr
                                       const char* path) {
   return guarded(session, [&] {
     const Options known = options_of(options);
-    add(*session, carreau::read_mesh(required(path, "path")), known);
+    const FlatMesh mesh = carreau::read_mesh(required(path, "path"));
+    add(*session, mesh, known);
+    if (mesh.periodic.empty()) return;
+    FlatMesh& pairs = session->periodic_files.emplace_back();
+    pairs.vertices = mesh.vertices, pairs.periodic = mesh.periodic;
+    for (carreau::PeriodicLink& link : pairs.periodic)
+      if (link.dimension == 2) link.master += session->surfaces.back().first_face - 1, link.slave += session->surfaces.back().first_face - 1;
   });
 }
 
@@ -174,8 +203,12 @@ carreau_status carreau_triangles_refine(carreau_session* session, double angle, 
     session->monitor.begin_run();
     discrete::RefinementLimits limits{.depth = depth};
     if (const int most = session->parameters->integer("max_triangles"); most > 0) limits.triangles = most;
-    discrete::RefinedMesh refined =
-        depth == 0 ? unrefined(surface) : refine(surface, wish_of_angle(surface, angle), limits, session->monitor);
+    std::vector<carreau::PeriodicLink> pairs = periodic_of(*session, surface);
+    discrete::RefinedMesh refined;
+    if (depth == 0)
+      refined = unrefined(surface), refined.periodic = std::move(pairs);
+    else
+      refined = refine(surface, wish_of_angle(surface, angle), limits, session->monitor, std::move(pairs));
     if (!refined.complete)
       session->monitor.message(Level::warning,
                                "triangles differ from the surface by more than the angle: the depth of " +

@@ -76,7 +76,7 @@ void carreau_session::add_geometry(int kind, std::shared_ptr<carreau::Cad> cad, 
 void carreau_session::drop_geometries() {
   if (!added.empty() && added.front().kind == CARREAU_GEOMETRY_PLANE) session.set_prescription_source(nullptr);
   added.clear();
-  surfaces.clear(), triangles.reset();
+  surfaces.clear(), periodic_files.clear(), triangles.reset();
   update_cad();
 }
 

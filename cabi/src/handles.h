@@ -170,6 +170,7 @@ struct carreau_session {
   std::shared_ptr<carreau::Cad> host;  // the callbacks of carreau_set_cad or carreau_set_cad_m
   std::vector<carreau::abi::AddedGeometry> added;
   std::vector<carreau::discrete::PlacedSurface> surfaces;           // given as triangles, in the order of adding
+  std::vector<carreau::FlatMesh> periodic_files;                    // their files with periodic pairs, without elements
   std::shared_ptr<const carreau::discrete::DiscreteCad> triangles;  // all of them; null: there are none
   std::optional<carreau::abi::BegunGeometry> begun;
   bool plane_has_sizes = false;  // of the last plane domain

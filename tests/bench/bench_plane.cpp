@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   for (int k = 4; k < argc; ++k) {
     if (std::strcmp(argv[k], "algebraic") == 0) options.frontal = false;
     if (std::strcmp(argv[k], "uncut") == 0) uncut = true;
-    if (std::strcmp(argv[k], "threads") == 0 && k + 1 < argc) options.threads = std::max(1, std::atoi(argv[k + 1]));
+    if (std::strcmp(argv[k], "threads") == 0 && k + 1 < argc) options.executor.threads = std::max(1, std::atoi(argv[k + 1]));
   }
   Monitor monitor;
   std::vector<double> seconds, sampling, waited;

@@ -3,11 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <numbers>
+#include <set>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "geometry/discrete/triangulation.h"
+#include "mesh/nodes_by_place.h"
 #include "support/error.h"
+#include "support/infinity.h"
+#include "support/shares.h"
 
 namespace carreau::discrete {
 
@@ -18,10 +26,55 @@ std::uint64_t key_of(std::int32_t v, std::int32_t w) noexcept {
   return static_cast<std::uint64_t>(e[0]) << 32 | static_cast<std::uint64_t>(e[1]);
 }
 
+bool is_of_itself(const PeriodicLink& link) { return link.dimension == 1 && link.master == link.slave; }
+
+/// Images of vertices under the map of each link. Links of a curve with itself have the first vertices of orbits: their images are
+/// found by places.
+class Images {
+ public:
+  Images(const std::vector<PeriodicLink>& links, const std::vector<Vec3>& vertices) : links_(links), image_(links.size()) {
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      for (const auto& [slave, master] : links[i].nodes) image_[i].emplace(master, slave);
+      if (is_of_itself(links[i])) find_by_place(i, vertices);
+    }
+  }
+
+  [[nodiscard]] std::int32_t of(std::size_t link, std::int32_t v) const {
+    const auto found = image_[link].find(v);
+    return found == image_[link].end() ? -1 : found->second;
+  }
+  void add(std::size_t link, std::int32_t v, std::int32_t image) { image_[link].emplace(v, image); }
+  [[nodiscard]] NodeImages all(std::size_t link) const {
+    NodeImages list;
+    for (const auto& [v, w] : image_[link]) list.push_back({v, w});
+    return list;
+  }
+
+ private:
+  void find_by_place(std::size_t i, const std::vector<Vec3>& vertices) {
+    std::set<std::int32_t> nodes;
+    for (const PeriodicLink& link : links_)
+      if (is_of_itself(link) && link.slave == links_[i].slave)
+        for (const auto& pair : link.nodes) nodes.insert(pair.begin(), pair.end());
+    double shortest = infinity;
+    for (const std::int32_t v : nodes)
+      for (const std::int32_t w : nodes)
+        if (v < w) shortest = std::min(shortest, norm(vertices[index(v)] - vertices[index(w)]));
+    const NodesByPlace::Positions position = [&](std::int32_t v) { return vertices[index(v)]; };
+    const std::vector<std::int32_t> list(nodes.begin(), nodes.end());
+    const NodesByPlace places(list, position, static_cast<std::int32_t>(vertices.size()), shares::small * shortest);
+    for (const std::int32_t v : list)
+      places.for_near(links_[i].map(position(v)), v, [&](std::int32_t w) { image_[i].emplace(v, w); });
+  }
+
+  const std::vector<PeriodicLink>& links_;
+  std::vector<std::map<std::int32_t, std::int32_t>> image_;  // by link
+};
+
 class Refiner {
  public:
-  Refiner(const DiscreteSurface& surface, const RefinementWish& wish, const RefinementLimits& limits, Monitor& monitor)
-      : surface_(surface), wish_(wish), limits_(limits), monitor_(monitor), mesh_(unrefined(surface)) {}
+  Refiner(const DiscreteSurface& surface, const RefinementWish& wish, const RefinementLimits& limits, Monitor& monitor, std::vector<PeriodicLink> periodic)
+      : surface_(surface), wish_(wish), limits_(limits), monitor_(monitor), mesh_(unrefined(surface)), links_(std::move(periodic)), images_(links_, mesh_.vertices) {}
 
   RefinedMesh run() {
     for (int depth = 0;; ++depth) {
@@ -33,16 +86,93 @@ class Refiner {
         mesh_.complete = false;
         break;
       }
-      if (wish_.triangle) close();
+      do {
+        if (wish_.triangle) close();
+      } while (follow());
       if (static_cast<std::int64_t>(mesh_.triangles.size() + 2 * middle_.size()) > limits_.triangles)
         throw LimitError("the refined mesh has more than " + std::to_string(limits_.triangles) + " triangles");
       cut();
     }
+    keep_pairs();
     return std::move(mesh_);
   }
 
  private:
   static constexpr std::int32_t wanted = -1;
+
+  template <typename Use>
+  void for_images(const Use& use) const {
+    for (std::size_t i = 0; i < links_.size(); ++i)
+      for (const auto& c : mesh_.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::int32_t a = images_.of(i, c[k]), b = a < 0 ? -1 : images_.of(i, c[(k + 1) % 3]);
+          if (b >= 0) use(i, c[k], c[(k + 1) % 3], a, b);
+        }
+  }
+
+  // Edges are cut on both sides of a pair.
+  bool follow() {
+    if (links_.empty()) return false;
+    std::unordered_set<std::uint64_t> edges;  // never iterated
+    for (const auto& c : mesh_.triangles)
+      for (std::size_t k = 0; k < 3; ++k) edges.insert(key_of(c[k], c[(k + 1) % 3]));
+    bool more = false;
+    for_images([&](std::size_t, std::int32_t v, std::int32_t w, std::int32_t a, std::int32_t b) {
+      const std::uint64_t here = key_of(v, w), there = key_of(a, b);
+      if (!edges.contains(there) || middle_.contains(here) == middle_.contains(there)) return;
+      middle_.emplace(here, wanted), middle_.emplace(there, wanted);
+      more = true;
+    });
+    return more;
+  }
+
+  /// An edge that is cut on both sides of a pair.
+  struct CutPair {
+    std::size_t link;
+    std::uint64_t master, slave;
+  };
+  [[nodiscard]] std::vector<CutPair> cut_pairs() const {
+    std::vector<CutPair> pairs;
+    for_images([&](std::size_t i, std::int32_t v, std::int32_t w, std::int32_t a, std::int32_t b) {
+      if (const CutPair pair{i, key_of(v, w), key_of(a, b)}; middle_.contains(pair.master) && middle_.contains(pair.slave)) pairs.push_back(pair);
+    });
+    return pairs;
+  }
+
+  // First on curves that are their own images, then in the order of the links.
+  void place_images(const std::vector<CutPair>& pairs) {
+    std::set<std::int32_t> placed;
+    const auto place = [&](std::size_t link, std::int32_t slave, std::int32_t master) {
+      if (slave != master && placed.insert(slave).second) mesh_.vertices[index(slave)] = links_[link].map(mesh_.vertices[index(master)]);
+    };
+    std::map<int, std::vector<std::pair<std::size_t, NodeImages>>> of_itself;  // by curve
+    for (const auto& [link, master, slave] : pairs) {
+      const std::int32_t v = middle_.at(master), w = middle_.at(slave);
+      images_.add(link, v, w);
+      if (!is_of_itself(links_[link])) continue;
+      auto& maps = of_itself[links_[link].slave];
+      if (maps.empty() || maps.back().first != link) maps.push_back({link, {}});
+      maps.back().second.push_back({v, w});
+    }
+    for (const auto& [curve, maps] : of_itself) {
+      std::vector<NodeImages> images;
+      for (const auto& [link, nodes] : maps) images.push_back(nodes);
+      const std::vector<NodeImages> orbits = pairs_of_orbits(images);
+      for (std::size_t m = 0; m < maps.size(); ++m)
+        for (const auto& [slave, master] : orbits[m]) place(maps[m].first, slave, master);
+    }
+    for (const auto& [link, master, slave] : pairs)
+      if (!is_of_itself(links_[link])) place(link, middle_.at(slave), middle_.at(master));
+  }
+
+  void keep_pairs() {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      PeriodicLink& link = mesh_.periodic.emplace_back(links_[i]);
+      link.nodes.clear();
+      for (const auto& [v, w] : images_.all(i)) link.nodes.push_back({w, v});
+      std::ranges::sort(link.nodes);
+    }
+  }
 
   void mark() {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -86,6 +216,7 @@ class Refiner {
   }
 
   void cut() {
+    const std::vector<CutPair> pairs = cut_pairs();
     RefinedMesh next;
     next.triangles.reserve(mesh_.triangles.size() + 2 * middle_.size());
     const auto add = [&](std::size_t t, const std::array<std::int32_t, 3>& c, const std::array<Vec2, 3>& uv) {
@@ -137,6 +268,7 @@ class Refiner {
       }
       line = std::move(finer);
     }
+    place_images(pairs);
   }
 
   const DiscreteSurface& surface_;
@@ -144,7 +276,94 @@ class Refiner {
   const RefinementLimits& limits_;
   Monitor& monitor_;
   RefinedMesh mesh_;
+  const std::vector<PeriodicLink> links_;
+  Images images_;
   std::unordered_map<std::uint64_t, std::int32_t> middle_;  // of halved edges; never iterated
+};
+
+/// Lines and corners of a refined mesh have references of their own: their pairs follow from the vertices.
+class PairsOfLines {
+ public:
+  PairsOfLines(const RefinedMesh& mesh, const std::vector<std::int32_t>& corner_ref) : mesh_(mesh), corner_ref_(corner_ref) {
+    for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+      for (std::size_t k = 1; k < mesh.lines[l].size(); ++k) line_of_.emplace(key_of(mesh.lines[l][k - 1], mesh.lines[l][k]), l);
+  }
+
+  std::vector<PeriodicLink> run() {
+    for (const PeriodicLink& link : mesh_.periodic)
+      if (!is_of_itself(link)) add(link);
+    for (std::size_t i = 0; i < mesh_.periodic.size(); ++i)
+      if (is_of_itself(mesh_.periodic[i])) add_itself(i);
+    std::ranges::stable_sort(found_, {}, &PeriodicLink::dimension);
+    return std::move(found_);
+  }
+
+ private:
+  void add(const PeriodicLink& link) {
+    std::map<std::int32_t, std::int32_t> image;
+    for (const auto& [w, v] : link.nodes) image.emplace(v, w);
+    for (const auto& [v, w] : image) {
+      const std::int32_t from = corner_ref_[index(v)], to = corner_ref_[index(w)];
+      if (from != 0 && to != 0 && from != to && corners_.insert(to).second)
+        found_.push_back({.dimension = 0, .master = from, .slave = to, .map = link.map, .nodes = {{w, v}}});
+    }
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
+      const std::vector<std::int32_t>& line = mesh_.lines[l];
+      PeriodicLink made{.dimension = 1, .master = static_cast<int>(l) + 1, .slave = 0, .map = link.map};
+      bool all = true;
+      for (std::size_t k = 0; k < line.size() && all; ++k) {
+        const auto here = image.find(line[k]);
+        all = here != image.end();
+        if (!all) break;
+        made.nodes.push_back({here->second, line[k]});
+        if (k == 0) continue;
+        const auto there = line_of_.find(key_of(made.nodes[k - 1][0], here->second));
+        all = there != line_of_.end() && there->second != l && (k == 1 || made.slave == static_cast<int>(there->second) + 1);
+        if (all) made.slave = static_cast<int>(there->second) + 1;
+      }
+      if (!all || made.slave == 0 || !lines_.insert(made.slave).second) continue;
+      std::ranges::sort(made.nodes);
+      made.nodes.erase(std::unique(made.nodes.begin(), made.nodes.end()), made.nodes.end());
+      found_.push_back(std::move(made));
+    }
+  }
+
+  void add_itself(std::size_t first) {
+    const int curve = mesh_.periodic[first].slave;
+    if (!themselves_.insert(curve).second) return;
+    std::vector<std::size_t> links;
+    std::vector<NodeImages> images;
+    for (std::size_t i = first; i < mesh_.periodic.size(); ++i) {
+      const PeriodicLink& link = mesh_.periodic[i];
+      if (!is_of_itself(link) || link.slave != curve) continue;
+      links.push_back(i);
+      NodeImages& all = images.emplace_back();
+      for (const auto& [w, v] : link.nodes) all.push_back({v, w});
+    }
+    std::vector<NodeImages> pairs = pairs_of_orbits(images);
+    for (std::size_t m = 0; m < links.size(); ++m) {
+      std::map<std::size_t, NodeImages> by_line;  // one curve may be several lines
+      for (const auto& pair : pairs[m])
+        if (const std::size_t l = line_with(pair); l < mesh_.lines.size()) by_line[l].push_back(pair);
+      for (auto& [l, nodes] : by_line) {
+        std::ranges::sort(nodes);
+        found_.push_back({.dimension = 1, .master = static_cast<int>(l) + 1, .slave = static_cast<int>(l) + 1, .map = mesh_.periodic[links[m]].map, .nodes = nodes});
+      }
+    }
+  }
+  [[nodiscard]] std::size_t line_with(const std::array<std::int32_t, 2>& pair) const {
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
+      const std::vector<std::int32_t>& line = mesh_.lines[l];
+      if (std::ranges::find(line, pair[0]) != line.end() && std::ranges::find(line, pair[1]) != line.end()) return l;
+    }
+    return mesh_.lines.size();
+  }
+
+  const RefinedMesh& mesh_;
+  const std::vector<std::int32_t>& corner_ref_;
+  std::unordered_map<std::uint64_t, std::size_t> line_of_;  // by edge; never iterated
+  std::set<int> lines_, corners_, themselves_;
+  std::vector<PeriodicLink> found_;
 };
 
 }  // namespace
@@ -160,8 +379,8 @@ RefinedMesh unrefined(const DiscreteSurface& surface) {
 }
 
 RefinedMesh refine(const DiscreteSurface& surface, const RefinementWish& wish, const RefinementLimits& limits,
-                   Monitor& monitor) {
-  return Refiner(surface, wish, limits, monitor).run();
+                   Monitor& monitor, std::vector<PeriodicLink> periodic) {
+  return Refiner(surface, wish, limits, monitor, std::move(periodic)).run();
 }
 
 RefinementWish wish_of_angle(const DiscreteSurface& surface, double angle) {
@@ -212,6 +431,9 @@ FlatMesh flat_mesh(const DiscreteSurface& surface, const RefinedMesh& mesh) {
       flat.edge_refs.push_back(number);
     }
   }
+  if (mesh.periodic.empty()) return flat;
+  flat.periodic = PairsOfLines(mesh, flat.vertex_refs).run();
+  std::ranges::copy_if(mesh.periodic, std::back_inserter(flat.periodic), [](const PeriodicLink& link) { return link.dimension == 2; });
   return flat;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/discrete/surface.h"
+#include "mesh/periodic_link.h"
 #include "support/monitor.h"
 
 namespace carreau::discrete {
@@ -20,6 +21,7 @@ struct RefinedMesh {
   std::vector<std::array<Vec2, 3>> uv;           ///< of triangles: corners on their patch
   std::vector<std::vector<std::int32_t>> lines;  ///< vertices of each line of the surface, in its order
   bool complete = true;                          ///< false: the depth was reached before all criteria held
+  std::vector<PeriodicLink> periodic = {};       ///< all pairs of its vertices; faces are known by references of flat_mesh()
 };
 
 struct RefinementLimits {
@@ -36,15 +38,16 @@ struct RefinementWish {
 /// Cuts triangles by their edges until all criteria hold. With a criterion for triangles, a triangle with two halved
 /// edges gets the third one halved, too (HDR sec. 4.9.3). With a criterion for edges alone, it becomes three. Throws
 /// LimitError and Cancelled.
+/// `periodic`: pairs of the surface's vertices. Images of cut edges are cut at the images of their middles.
 RefinedMesh refine(const DiscreteSurface& surface, const RefinementWish& wish, const RefinementLimits& limits,
-                   Monitor& monitor);
+                   Monitor& monitor, std::vector<PeriodicLink> periodic = {});
 
 /// Criterion that cuts a triangle in four if its normal is off the surface's normal at a corner by more than `angle`
 /// degrees.
 RefinementWish wish_of_angle(const DiscreteSurface& surface, double angle);
 
-/// The mesh with face_refs(), sharp edges, whose references are the ranks of their lines, and the references of
-/// corners.
+/// The mesh with face_refs(), sharp edges, whose references are the ranks of their lines, the references of
+/// corners, and the pairs of faces, lines and corners.
 FlatMesh flat_mesh(const DiscreteSurface& surface, const RefinedMesh& mesh);
 /// The triangles themselves, the same way.
 RefinedMesh unrefined(const DiscreteSurface& surface);

@@ -97,9 +97,11 @@ class MshReader {
   void index_nodes(const char* at);
   void elements_4();
   void elements_2();
+  void periodic();
   std::size_t check_type(std::int32_t type, const char* at) const;
   void element(std::int32_t type, std::int32_t ref, std::size_t vertices);
   std::int32_t vertex_of(std::int64_t tag, const char* at) const;
+  std::int32_t find_vertex(std::int64_t tag) const;
   std::int64_t number_2(const char* what) { return in_.is_binary() ? in_.integer(what) : in_.size(what); }
   Vec3 point();
   void name_faces();
@@ -231,14 +233,51 @@ void MshReader::index_nodes(const char* at) {
   nodes_ = {};
 }
 
-std::int32_t MshReader::vertex_of(std::int64_t tag, const char* at) const {
+/// Returns -1 if no node has the number.
+std::int32_t MshReader::find_vertex(std::int64_t tag) const {
   // Mostly the numbers are 1, 2, ...
   const std::uint64_t guess = static_cast<std::uint64_t>(tag) - 1;
   if (guess < tags_.size() && tags_[guess] == tag) return static_cast<std::int32_t>(guess);
   const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag);
-  if (found == tags_.end() || *found != tag)
-    in_.fail(at, "an element names node " + std::to_string(tag) + ", which does not exist");
-  return static_cast<std::int32_t>(found - tags_.begin());
+  return found == tags_.end() || *found != tag ? -1 : static_cast<std::int32_t>(found - tags_.begin());
+}
+
+std::int32_t MshReader::vertex_of(std::int64_t tag, const char* at) const {
+  const std::int32_t v = find_vertex(tag);
+  if (v < 0) in_.fail(at, "an element names node " + std::to_string(tag) + ", which does not exist");
+  return v;
+}
+
+/// Pairs without a map, and pairs of nodes that the file has not, are left out.
+void MshReader::periodic() {
+  const std::int64_t links = in_.size("the number of periodic entities");
+  for (std::int64_t i = 0; i < links; ++i) {
+    PeriodicLink link;
+    link.dimension = in_.integer("the dimension of an entity");
+    link.slave = in_.integer("the number of an entity"), link.master = in_.integer("the number of an entity");
+    const char* at = in_.here();
+    bool has_map = false;
+    if (version_2_) {
+      has_map = in_.word() == "Affine";
+      if (!has_map) in_.go_back(at);
+    } else {
+      const std::int64_t entries = in_.size("the number of entries of a map");
+      if (entries != 0 && entries != 16) in_.fail(at, "a periodic map has " + std::to_string(entries) + " entries instead of 16");
+      has_map = entries == 16;
+    }
+    for (int k = 0; k < 16 && has_map; ++k) {
+      const double entry = in_.real("an entry of a map");
+      if (k < 12 && k % 4 == 3) link.map.shift[k / 4] = entry;
+      if (k < 12 && k % 4 != 3) link.map.row[static_cast<std::size_t>(k / 4)][k % 4] = entry;
+    }
+    const char* count = in_.here();
+    const std::size_t n = in_.checked_count(in_.size("the number of pairs of nodes"), count, "pairs of nodes", 2, 16);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::int32_t slave = find_vertex(in_.size("the number of a node")), master = find_vertex(in_.size("the number of a node"));
+      if (slave >= 0 && master >= 0) link.nodes.push_back({slave, master});
+    }
+    if (has_map && !link.nodes.empty()) mesh_.periodic.push_back(std::move(link));
+  }
 }
 
 std::size_t MshReader::check_type(std::int32_t type, const char* at) const {
@@ -354,6 +393,8 @@ void MshReader::section(std::string_view name, const char* at) {
     if (!has_nodes_) in_.fail(at, "$Elements comes before $Nodes");
     once(has_elements_);
     version_2_ ? elements_2() : elements_4();
+  } else if (name == "Periodic" && has_nodes_ && !(version_2_ && in_.is_binary())) {
+    periodic();
   } else {
     skip = true;
   }

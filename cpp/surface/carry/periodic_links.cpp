@@ -8,10 +8,10 @@
 #include <set>
 #include <utility>
 
+#include "mesh/nodes_by_place.h"
 #include "periodic/root_maps.h"
 #include "periodic/shared_curves.h"
 #include "surface/carry/carry_patch.h"
-#include "surface/carry/nodes_by_place.h"
 
 namespace carreau {
 
@@ -211,21 +211,6 @@ class Linker {
 };
 
 }  // namespace
-
-std::vector<NodeImages> pairs_of_orbits(const std::vector<NodeImages>& images) {
-  std::map<std::int32_t, std::int32_t> first;  // of the orbit, by node
-  for (const NodeImages& of_map : images)
-    for (const auto& [v, w] : of_map) {
-      std::int32_t& least = first.try_emplace(v, v).first->second;
-      least = std::min(least, w);
-    }
-  std::set<std::int32_t> placed;
-  std::vector<NodeImages> pairs(images.size());
-  for (std::size_t m = 0; m < images.size(); ++m)
-    for (const auto& [v, w] : images[m])
-      if (first.at(v) == v && w != v && placed.insert(w).second) pairs[m].push_back({w, v});
-  return pairs;
-}
 
 LinkFigures link_nodes(const PeriodicModel& periodic, const Topology& topology, const std::vector<DiscreteCurve>& curves, SurfaceMesh& mesh) {
   return Linker(periodic, topology, curves, mesh).run();

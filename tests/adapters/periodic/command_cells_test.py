@@ -239,6 +239,33 @@ class Cells(unittest.TestCase):
                             self.assertEqual(made.euler_of_skin(), 8)
                         self.require_sound(self.path("cell.msh2"), element)
 
+    def test_refined_files_stay_periodic(self):
+        """`carreau refine` reads pairs of both versions; images of cut edges are cut at the images of their middles."""
+        for body, options, size, faces in (("fcc.step", AXES, ".2", 3), ("annulus.step", ("--periodic", "rotate:0,0,0:0,0,1:60"), ".25", 1),
+                                           ("pipe.step", ("--periodic", "rotate:0,0,0:0,0,1:60"), ".3", 0)):
+            first = Mesh(self.mesh(os.path.join(CELLS, body), "-o", self.path("first.msh"), *options, name="first.msh2", size=size))
+            for name in ("first.msh", "first.msh2"):
+                for depth in (0, 3):
+                    with self.subTest(body, name=name, depth=depth):
+                        path = self.path("finer.msh2")
+                        done = run("refine", self.path(name), "-o", path, *(("--angle", "10", "--depth", str(depth)) if depth else ()))
+                        self.assertEqual(done.returncode, 0, done.stderr)
+                        made = Mesh(path)
+                        self.assertEqual(len(made.faces()), faces)
+                        self.assertLess(made.mismatch(), 2e-12)
+                        self.assertTrue(made.pairs)
+                        for _, slave, master, _, nodes in made.faces():
+                            self.assertTrue(made.same_cells(slave, master, nodes))
+                            self.assertEqual({n for cell in made.cells[master] for n in cell}, {m for _, m in nodes})
+                        if body == "fcc.step":
+                            self.assertEqual(made.euler_of_skin(), 8)
+                        count = [sum(map(len, m.cells.values())) for m in (first, made)]
+                        pairs = [sum(len(pair[4]) for pair in m.pairs) for m in (first, made)]
+                        self.assertEqual((count[1] > 1.5 * count[0], pairs[1] > pairs[0]), (depth > 0, True) if depth or body != "pipe.step" else (False, False))
+                        if body == "pipe.step":
+                            self.assertGreaterEqual(pairs[1], pairs[0])
+                        self.assertEqual(run("check", path).returncode, 0)
+
     def test_estimates_of_one_side_count_for_both(self):
         """Values vary beside x = 0 alone; the next mesh is as fine at x = 1."""
         source, last = os.path.join(CELLS, "cube.step"), self.path("last.msh2")
