@@ -220,7 +220,7 @@ TEST(Carry, LargeChangesStayValidOrAreReported) {
   EXPECT_NE(c.error().find("turned"), std::string::npos) << c.error();
 }
 
-// The hole moves towards a side, before which triangles are pressed flat: their vertices move until no shape is lower than half of its own.
+// The hole moves towards a side, before which triangles are pressed flat: their vertices move. Without that the worst triangle has .02.
 TEST(Carry, ShapesThatFallMuchAreSmoothed) {
   for (const char* element : {"p1", "q1.0", "p2"}) {
     const ShapeRun a(plate(0.3), 0.1, element), b(plate(0.3, 0.45), 0.1, element);
@@ -233,7 +233,8 @@ TEST(Carry, ShapesThatFallMuchAreSmoothed) {
     ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << b.error();
     expect_sound(b);
     EXPECT_NE(text.find("1 smoothed"), std::string::npos) << text;
-    EXPECT_EQ(text.find("lowered"), std::string::npos) << text;
+    EXPECT_EQ(text.find("lowered") == std::string::npos, element[0] == 'p') << text;
+    EXPECT_GT(b.quality().q2_min, 0.25);
   }
 }
 
