@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "association/divide_elements.h"
 #include "association/harmonic_map.h"
 #include "association/keep_shapes.h"
 #include "association/mesh_curves.h"
@@ -56,6 +57,7 @@ class Carrier {
       carry_face(work, f);
       monitor_.progress(Phase::patches, to_.model.faces[match_.face[f]].ref, static_cast<double>(f + 1) / static_cast<double>(faces));
     }
+    smooth_faces();
     if (report_.failed > 0) (void)drop_unused(out_);  // vertices inside of faces that have failed
     const std::vector<refining::WorstShape> worst = refining::worst_shapes(old);
     std::vector<refining::WorstShape> before(faces);
@@ -66,6 +68,19 @@ class Carrier {
   }
 
  private:
+  // Shapes that have not fallen much stay: positions are smooth functions of the geometry then.
+  void smooth_faces() {
+    const SurfaceMesh& old = from_.result.mesh;
+    refining::ShapeKeeper keeper(out_.mesh, 0, to_.cad, !rules_.uses_metrics(), !old.mid_vertices.empty(), monitor_);
+    for (std::size_t f = 0; f < old.faces.size(); ++f) {
+      monitor_.checkpoint();
+      std::vector<float> before;
+      for (const auto& t : old.faces[f].triangles) before.push_back(static_cast<float>(refining::shape_of(old.faces[f], t, old.vertices)));
+      const auto image = static_cast<std::size_t>(match_.face[f]);
+      if (before.size() == out_.mesh.faces[image].triangles.size() && keeper.smooth(image, before)) ++report_.smoothed;
+    }
+  }
+
   void carry_curves() {
     const SurfaceMesh& old = from_.result.mesh;
     SurfaceMesh& mesh = out_.mesh;

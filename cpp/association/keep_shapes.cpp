@@ -149,12 +149,27 @@ bool ShapeKeeper::repeats_chord(std::size_t f, std::vector<Chord> before) {
 void ShapeKeeper::restore(std::size_t f, std::span<const float> before) {
   const FaceMesh& face = mesh_.faces[f];
   const double poor = isotropic_ ? shape_level::bad : 0;
-  repair(f, triangles_below(face, [&](std::size_t) { return poor; }), false);
-  if (isotropic_) repair(f, triangles_below(face, [&](std::size_t t) { return std::max(std::min<double>(before[t], shape_level::good) - shape_loss, 0.0); }), true);
+  std::vector<double> goals;
+  for (const float shape : before) goals.push_back(std::max<double>(shape, shape_level::bad));
+  repair(f, triangles_below(face, [&](std::size_t) { return poor; }), goals, Edits::swaps);
+  if (isotropic_)
+    repair(f, triangles_below(face, [&](std::size_t t) { return std::max(std::min<double>(before[t], shape_level::good) - shape_loss, 0.0); }), goals, Edits::both);
   if (face.quads == 0) return;
   std::vector<double> kept;
   for (const float shape : before) kept.push_back(isotropic_ && !quadratic_ ? std::max(std::min<double>(shape, shape_level::poor) - shape_loss, 0.0) : 0);
   restore_quads(mesh_.faces[f], mesh_.vertices, cad_, isotropic_, fixed_of(face), kept, first_new_, monitor_);
+}
+
+bool ShapeKeeper::smooth(std::size_t f, std::span<const float> before) {
+  const FaceMesh& face = mesh_.faces[f];
+  std::vector<double> kept;
+  for (const float shape : before) kept.push_back(reported_loss * std::min<double>(shape, shape_level::good));
+  const std::vector<std::int32_t> worse = triangles_below(face, [&](std::size_t t) { return kept[t]; });
+  if (!isotropic_ || 2 * worse.size() > face.triangles.size()) return false;  // the whole face is stretched
+  const std::vector<Vec2> places = face.uv;
+  repair(f, worse, kept, Edits::moves);
+  if (face.quads > 0) restore_quads(mesh_.faces[f], mesh_.vertices, cad_, isotropic_, fixed_of(face), kept, 0, monitor_);
+  return face.uv != places;
 }
 
 std::vector<char> ShapeKeeper::fixed_of(const FaceMesh& face) const {
@@ -165,7 +180,7 @@ std::vector<char> ShapeKeeper::fixed_of(const FaceMesh& face) const {
   return fixed;
 }
 
-void ShapeKeeper::repair(std::size_t f, const std::vector<std::int32_t>& worse, bool moves) {
+void ShapeKeeper::repair(std::size_t f, const std::vector<std::int32_t>& worse, std::span<const double> goals, Edits edits) {
   FaceMesh& face = mesh_.faces[f];
   if (worse.empty()) return;
   std::vector<char> fixed = fixed_of(face);
@@ -177,15 +192,19 @@ void ShapeKeeper::repair(std::size_t f, const std::vector<std::int32_t>& worse, 
       const std::int32_t a = face.triangles[t][i], b = face.triangles[t][(i + 1) % 3];
       if (is_curve_edge(face.vertex[a], face.vertex[b])) around.domain.edges.push_back({.a = around.number[a], .b = around.number[b]});
     }
-  if (swap_turned(around)) untangle_patch(around, face.ref, cad_);
+  if (edits != Edits::moves && swap_turned(around)) untangle_patch(around, face.ref, cad_);
   PatchMesh& patch = around.patch;
   if (isotropic_) {
     std::vector<std::int32_t> all(around.triangles.size());
     std::iota(all.begin(), all.end(), 0);
-    const BadRegion region(around.domain, patch.plane, patch.xyz, std::move(all), 1, monitor_);
+    BadRegion region(around.domain, patch.plane, patch.xyz, std::move(all), 1, monitor_);
+    std::vector<float> of_patch;
+    for (const std::int32_t t : around.triangles) of_patch.push_back(static_cast<float>(goals[t]));
     for (int round = 0; round < work_bounds::rounds; ++round) {
-      const bool swapped = swap_in_space(region, around.domain, patch.plane, patch.xyz, monitor_);
-      if (!moves || (smooth_in_space(region, around.domain, face.ref, cad_, patch, monitor_).empty() && !swapped)) break;
+      region.aim_at({});
+      const bool swapped = edits != Edits::moves && swap_in_space(region, around.domain, patch.plane, patch.xyz, monitor_);
+      region.aim_at(of_patch);
+      if (edits == Edits::swaps || (smooth_in_space(region, around.domain, face.ref, cad_, patch, monitor_).empty() && !swapped)) break;
     }
   }
   std::vector<Chord> chords;
@@ -226,7 +245,7 @@ void report_losses(SurfaceMesh& mesh, std::span<const WorstShape> before, const 
                               ", the first one at " + format_point(mesh.vertices[turned.first]);
       face.status = FaceStatus::mended, face.why += (face.why.empty() ? "" : "; ") + why;
       monitor.message(Level::warning, why);
-    } else if (shape < 0.5 * std::min(before[f].shape, shape_level::good)) {
+    } else if (shape < reported_loss * std::min(before[f].shape, shape_level::good)) {
       monitor.message(Level::warning, where + "the " + by + " has lowered the worst shape (Q2) from " + rounded(before[f].shape) + " to " + rounded(shape) + " at " +
                                           format_point(mesh.vertices[vertex]));
     }

@@ -24,8 +24,12 @@ class ShapeKeeper {
 
   /// `before`: as divide_elements() returns it. Does not evaluate the host if no shape is worse.
   void restore(std::size_t face, std::span<const float> before);
+  /// Moves vertices around triangles whose shapes have fallen much, and of quadrilaterals, and keeps the elements. Leaves faces that are
+  /// stretched as a whole. Returns whether a vertex has moved.
+  bool smooth(std::size_t face, std::span<const float> before);
 
  private:
+  enum class Edits { swaps, moves, both };
   /// An edge between two vertices of curves that is no edge of a curve: neighbouring faces must not have it too.
   struct Chord {
     Key vertices;
@@ -37,7 +41,8 @@ class ShapeKeeper {
   [[nodiscard]] bool repeats_chord(std::size_t face, std::vector<Chord> before);
   template <typename Kept>
   [[nodiscard]] std::vector<std::int32_t> triangles_below(const FaceMesh& face, const Kept& kept) const;
-  void repair(std::size_t face, const std::vector<std::int32_t>& worse, bool moves);
+  /// Moves only vertices of triangles below their `goals`, by triangle of the face.
+  void repair(std::size_t face, const std::vector<std::int32_t>& worse, std::span<const double> goals, Edits edits);
   [[nodiscard]] std::vector<char> fixed_of(const FaceMesh& face) const;
   [[nodiscard]] bool is_curve_edge(std::int32_t v, std::int32_t w) const;
 

@@ -15,5 +15,7 @@ inline constexpr double swap_cosine = 0.8;
 /// Shape (Q2). Triangles are restored whose shape is lower than the parent's, or than a good one, by the loss.
 /// [Refine.HalvingKeepsShapesBesideCurves]
 inline constexpr double shape_loss = 0.05;
+/// Share of the worst shape of a face before. A worse one is reported.
+inline constexpr double reported_loss = 0.5;
 
 }  // namespace carreau::thresholds::association

@@ -78,7 +78,7 @@ void Session::carry_mesh(const Session& from, MatchBy by) {
     throw DomainError("no face could be carried: triangles stay turned in each");
   constexpr const char* words[]{"", "references", "names", "shapes"};
   s.monitor.message(Level::summary, std::string("carried by ") + words[static_cast<int>(match.by)] + ": " + std::to_string(report.kept) +
-                                        " faces with their (u, v), " + std::to_string(report.relaxed) + " relaxed, " + std::to_string(report.failed) + " failed");
+                                        " faces with their (u, v), " + std::to_string(report.relaxed) + " relaxed, " + (report.smoothed > 0 ? std::to_string(report.smoothed) + " smoothed, " : "") + std::to_string(report.failed) + " failed");
   result.report.diag = prepared.supports.diag;
   result.report.calls = cad.counts();
   result.report.seconds_total = seconds_since(start);

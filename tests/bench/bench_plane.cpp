@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   std::printf("  %.0f triangles/s of processor, median of %d, %.0f best; %.0f with the control space (%zu samples)\n",
               n / meshing, runs, n / seconds[0], n / (meshing + space_time), space.samples());
   std::printf("  %.3f s of processor at best, %.3f s on the wall, %d threads%s\n", seconds[0],
-              *std::min_element(waited.begin(), waited.end()), options.threads, uncut ? ", uncut" : "");
+              *std::min_element(waited.begin(), waited.end()), options.executor.threads, uncut ? ", uncut" : "");
   if (std::getenv("CHECK") != nullptr || n < 20000) {
     const auto defects = find_plane_defects(c.domain, mesh);
     for (std::size_t i = 0; i < defects.size() && i < 5; ++i) std::printf("  DEFECT %s\n", defects[i].c_str());

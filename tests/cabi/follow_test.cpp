@@ -220,6 +220,24 @@ TEST(Carry, LargeChangesStayValidOrAreReported) {
   EXPECT_NE(c.error().find("turned"), std::string::npos) << c.error();
 }
 
+// The hole moves towards a side, before which triangles are pressed flat: their vertices move. Without that the worst triangle has .02.
+TEST(Carry, ShapesThatFallMuchAreSmoothed) {
+  for (const char* element : {"p1", "q1.0", "p2"}) {
+    const ShapeRun a(plate(0.3), 0.1, element), b(plate(0.3, 0.45), 0.1, element);
+    a.generate();
+    std::string text;
+    const auto log = [](std::int32_t level, const char* message, void* user) {
+      if (level <= CARREAU_LEVEL_SUMMARY) *static_cast<std::string*>(user) += message;
+    };
+    ASSERT_EQ(carreau_set_message_callback(b.session, log, &text), CARREAU_OK);
+    ASSERT_EQ(carreau_mesh_carry(b.session, a.mesh(), CARREAU_MATCH_ANY), CARREAU_OK) << b.error();
+    expect_sound(b);
+    EXPECT_NE(text.find("1 smoothed"), std::string::npos) << text;
+    EXPECT_EQ(text.find("lowered") == std::string::npos, element[0] == 'p') << text;
+    EXPECT_GT(b.quality().q2_min, 0.25);
+  }
+}
+
 TEST(Carry, LowerShapesAreReported) {
   for (const double height : {1.2, 8.0}) {
     const ShapeRun a(cylinder(1), 0.2), b(cylinder(1, height), 0.2);

@@ -51,7 +51,7 @@ void BadRegion::mark_corners(const std::vector<std::int32_t>& triangles, std::ve
 std::vector<std::int32_t> BadRegion::below(double bound) const {
   std::vector<std::int32_t> found;
   for (const std::int32_t t : triangles_)
-    if (is_below(bound, mesh_.triangles[t], xyz_)) found.push_back(t);
+    if (is_below(goals_.empty() ? bound : std::min<double>(bound, goals_[t]), mesh_.triangles[t], xyz_)) found.push_back(t);
   return found;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "mesh/plane_mesh.h"
@@ -41,6 +42,8 @@ class BadRegion {
 
   /// Indices, increasing.
   [[nodiscard]] const std::vector<std::int32_t>& triangles() const noexcept { return triangles_; }
+  /// Triangles above their goals, by triangle of the mesh, are not bad, whatever the bound.
+  void aim_at(std::vector<float> goals) { goals_ = std::move(goals); }
   /// Returns the triangles below `bound` now, increasing.
   [[nodiscard]] std::vector<std::int32_t> below(double bound) const;
   /// Returns whether the vertex is not imposed and all triangles around are in the region.
@@ -55,6 +58,7 @@ class BadRegion {
   const std::vector<Vec3>& xyz_;
   std::vector<std::int32_t> triangles_;
   std::vector<char> movable_;  // by vertex
+  std::vector<float> goals_;   // by triangle; empty: none
 };
 
 }  // namespace carreau
