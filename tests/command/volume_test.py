@@ -299,7 +299,7 @@ class VolumeTest(WorkFolder):
         inner, outward = box((1, 1, 1), (3, 3, 3), 8)
         self.write("nested.off", off(corners + inner, triangles + outward))
         sentence = self.failure("volume", "nested.off", "-o", "nested.mesh", "--size", "20%", "--engine", ENGINES[0])
-        self.assertRegex(sentence, r"the shell of faces? [\d, ]+(and \d+ more )?at \([123, ]+\) of solid 2 lies inside solid 1, which has no cavity there")
+        self.assertRegex(sentence, r"the shell of faces? [\d, ]+(and \d+ more )?at \([\d., ]+\) of solid 2 lies inside solid 1, which has no cavity there")
         self.assertNotIn("did not fill", sentence)
 
     def test_reversed_shells_are_named(self):
@@ -319,7 +319,7 @@ class VolumeTest(WorkFolder):
                                 ((flipped[first], second), "into this shell, which no other shell of the solid holds")):
             self.write("odd.brep", head + signs[0] + outer + signs[1] + inner + tail)
             sentence = self.failure("volume", "odd.brep", "-o", "odd.mesh", "--size", "20%", "--engine", ENGINES[0])
-            self.assertRegex(sentence, r"No engine can fill solid 1.*: the normals of its shell of faces .* at \([\d, ]+\) point " + expected)
+            self.assertRegex(sentence, r"No engine can fill solid 1.*: the normals of its shell of faces .* at \([\d., ]+\) point " + expected)
 
     def test_solids_that_touch(self):
         """Triangles with common vertices share their sides; solids of a CAD file must be imprinted."""

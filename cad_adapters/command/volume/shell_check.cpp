@@ -20,12 +20,6 @@ struct Shell {
   Point low{}, high{};
 };
 
-Point minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-double dot(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-double triple(const Point& p, const Point& q, const Point& r) {
-  return p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
-}
-
 class SolidShells {
  public:
   SolidShells(const SolidSurface& surface, std::int32_t solid) : surface_(surface), parent_(surface.vertices.size()) {
@@ -81,6 +75,11 @@ class SolidShells {
   }
 
  private:
+  static Point minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+  static double dot(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+  static double triple(const Point& p, const Point& q, const Point& r) {
+    return p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
+  }
   std::int32_t root(std::int32_t v) {
     while (parent_[static_cast<std::size_t>(v)] != v) {
       std::int32_t& up = parent_[static_cast<std::size_t>(v)];
@@ -115,28 +114,28 @@ class SolidShells {
   std::vector<Shell> shells_;
 };
 
-std::string list_of(const std::set<std::int32_t>& faces) {
-  constexpr std::size_t most = 5;
+std::string list_of_faces(const std::set<std::int32_t>& faces) {
+  constexpr std::size_t listed = 5;
   std::string text = faces.size() == 1 ? "face " : "faces ";
   std::size_t k = 0;
-  for (auto face = faces.begin(); face != faces.end() && k < most; ++face, ++k) text += (k > 0 ? ", " : "") + std::to_string(*face);
-  return faces.size() > most ? text + " and " + std::to_string(faces.size() - most) + " more" : text;
+  for (auto face = faces.begin(); face != faces.end() && k < listed; ++face, ++k) text += (k > 0 ? ", " : "") + std::to_string(*face);
+  return faces.size() > listed ? text + " and " + std::to_string(faces.size() - listed) + " more" : text;
 }
 
 }  // namespace
 
 namespace {
 
-std::string named(const SolidSurface& surface, std::int32_t solid) {
+std::string name_of_solid(const SolidSurface& surface, std::int32_t solid) {
   const auto found = surface.solids.find(solid);
   return "solid " + std::to_string(solid) + (found == surface.solids.end() || found->second.empty() ? "" : " (" + found->second + ")");
 }
 
-std::string text_of(const SolidSurface& surface, const Shell& shell) {
+std::string text_of_shell(const SolidSurface& surface, const Shell& shell) {
   const Point& p = surface.vertices[static_cast<std::size_t>(shell.triangles.front()[0])];
   char place[100];
   std::snprintf(place, sizeof place, " at (%.9g, %.9g, %.9g)", p[0], p[1], p[2]);
-  return "shell of " + list_of(shell.faces) + place;
+  return "shell of " + list_of_faces(shell.faces) + place;
 }
 
 }  // namespace
@@ -147,7 +146,7 @@ void check_shells(const SolidSurface& surface) {
     const SolidShells& shells = all.emplace_back(solid, SolidShells(surface, solid)).second;
     bool inside = false;
     if (const Shell* shell = shells.wrong(inside))
-      throw Failure("No engine can fill " + named(surface, solid) + ": the normals of its " + text_of(surface, *shell) +
+      throw Failure("No engine can fill " + name_of_solid(surface, solid) + ": the normals of its " + text_of_shell(surface, *shell) +
                     (inside ? " point out of this shell, which lies inside the solid. A cavity requires the reversed shell."
                             : " point into this shell, which no other shell of the solid holds. The solid requires the reversed shell."));
   }
@@ -155,8 +154,8 @@ void check_shells(const SolidSurface& surface) {
     for (const auto& [other, own] : all)
       for (const Shell& shell : own.shells())
         if (other != solid && shells.holds(shell))
-          throw Failure("No engine can fill the mesh: the " + text_of(surface, shell) + " of " + named(surface, other) +
-                        " lies inside " + named(surface, solid) + ", which has no cavity there. For CAD files, see --imprint.");
+          throw Failure("No engine can fill the mesh: the " + text_of_shell(surface, shell) + " of " + name_of_solid(surface, other) +
+                        " lies inside " + name_of_solid(surface, solid) + ", which has no cavity there. For CAD files, see --imprint.");
 }
 
 }  // namespace command

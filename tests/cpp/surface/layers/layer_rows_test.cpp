@@ -11,6 +11,8 @@
 #include <string>
 
 #include "mesh/elements/jacobian.h"
+#include "model/topology.h"
+#include "pipeline/base/run.h"
 #include "session_of_size.h"
 #include "support/error.h"
 
@@ -275,6 +277,31 @@ TEST(LayerRows, RowsOnCoarseFlanksDoNotTurnOver) {
         EXPECT_LT(cross(at(b) - at(a), at(c) - at(a)).z(), 0) << size << ' ' << width;  // S_u x S_v points down
       }
     }
+}
+
+TEST(LayerRows, EdgesThatBendBulgeByTheSagittasOfTheirArcs) {
+  Monitor monitor;
+  AnalyticCad cad = plane_of({arc({1, 2}, 3, 0, 2 * pi)});
+  const ModelSupports supports = build_supports(unglued(cad), cad, 0.5, 1, monitor);
+  const Model model = glue(unglued(cad), traces_of(supports), 1e-9);
+  const Topology topology = build_topology(model, traces_of(supports), 1e-9);
+  CompositeOptions options;
+  options.size = {.physical = PhysicalSizes::uniform, .hphydef = 2, .hphymin = 1e-3, .hphymax = 10};
+  CompositeRun run(model, topology, supports, cad, options, PeriodicModel{}, monitor);
+  discretise_curves(run);
+  const std::vector<CurveLayers> given{{.curves = {1}, .first = 0.1, .ratio = 1.2, .count = 3}};
+  const DiscreteCurve& circle = run.curves[0];
+  for (const bool bent : {false, true}) {
+    LayerCurves layers(model, topology, given, false, bent);
+    layers.find_bulges(run.curve_model, run.curves);
+    for (int k = 0; k < circle.segments(); ++k) {
+      const Vec3 &a = circle.xyz[static_cast<std::size_t>(k)], &b = circle.xyz[static_cast<std::size_t>(k) + 1];
+      const Vec3 middle = 0.5 * (a + b), out = middle - Vec3(1, 2, 0);
+      const Vec3 sagitta = bent ? Vec3((3 / norm(out) - 1) * out) : Vec3(0, 0, 0);
+      EXPECT_LT(norm(layers.bulge({.a = k, .b = k + 1, .curve = 0, .segment = k}) - sagitta), 1e-3);
+    }
+    EXPECT_EQ(layers.bulge({.a = 0, .b = 1}), Vec3(0, 0, 0));
+  }
 }
 
 TEST(LayerRows, RowsBesideAFaultLoseHalf) {
