@@ -68,6 +68,13 @@ MetricSlopes ControlSpace::slopes_at(const Vec2& uv) const noexcept {
   return slopes_in(*at.leaf, at.s, at.t);
 }
 
+bool ControlSpace::is_constant() const noexcept {
+  constexpr std::array<double, 3> none{};
+  return std::all_of(leaves_.begin(), leaves_.end(), [&](const Leaf& leaf) {
+    return leaf.c[0] == leaves_[0].c[0] && std::all_of(leaf.c.begin() + 1, leaf.c.end(), [&](const auto& c) { return c == none; });
+  });
+}
+
 double ControlSpace::largest_bend() const noexcept {
   double largest = 0;
   for (const Leaf& leaf : leaves_) largest = std::max(largest, bend_of_shapes(slopes_in(leaf, 0, 0)));

@@ -76,6 +76,8 @@ class ControlSpace {
             unit_.c * (root[1] * root[1] + root[2] * root[2])};
   }
 
+  /// True if at() returns the same bits everywhere.
+  [[nodiscard]] bool is_constant() const noexcept;
   /// Also returns its derivatives, which jump between leaves by at most the tolerance.
   [[nodiscard]] MetricSlopes slopes_at(const Vec2& uv) const noexcept;
   /// Largest bend of shapes (metric/chart.h) at the middle of a leaf.

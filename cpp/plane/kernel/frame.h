@@ -34,12 +34,15 @@ class Field {
         aa_(unscale_.x() * unscale_.x()),
         ab_(unscale_.x() * unscale_.y()),
         bb_(unscale_.y() * unscale_.y()),
-        known_(known) {}
+        known_(known),
+        constant_(space.is_constant()),
+        everywhere_(evaluated({0, 0})) {}
   /// The field with its sizes multiplied by `times`.
   [[nodiscard]] Field coarser(double times) const noexcept {
     Field coarse = *this;
     const double share = 1 / (times * times);
     coarse.aa_ *= share, coarse.ab_ *= share, coarse.bb_ *= share, coarse.known_.triangles *= share;
+    coarse.everywhere_ = coarse.evaluated({0, 0});
     return coarse;
   }
   /// True if charts are useful anywhere in the domain of the space. Searches all of it.
@@ -47,10 +50,8 @@ class Field {
     return space.measure() >= large_mesh && space.largest_bend() > min_bend;
   }
 
-  [[nodiscard]] Metric2 at(const Vec2& p) const noexcept {
-    const Metric2 m = space_.at({p.x() * unscale_.x(), p.y() * unscale_.y()});
-    return {m.a * aa_, m.b * ab_, m.c * bb_};
-  }
+  /// One size in a plane is constant: without the branch its evaluation takes a third of the judgement of a shape.
+  [[nodiscard]] Metric2 at(const Vec2& p) const noexcept { return constant_ ? everywhere_ : evaluated(p); }
   [[nodiscard]] MetricSlopes slopes(const Vec2& p) const noexcept {
     const MetricSlopes s = space_.slopes_at({p.x() * unscale_.x(), p.y() * unscale_.y()});
     const auto inward = [&](Metric2 m, double k) { return Metric2{k * aa_ * m.a, k * ab_ * m.b, k * bb_ * m.c}; };
@@ -74,10 +75,17 @@ class Field {
   [[nodiscard]] double measure() const noexcept { return known_.triangles; }
 
  private:
+  [[nodiscard]] Metric2 evaluated(const Vec2& p) const noexcept {
+    const Metric2 m = space_.at({p.x() * unscale_.x(), p.y() * unscale_.y()});
+    return {m.a * aa_, m.b * ab_, m.c * bb_};
+  }
+
   const ControlSpace& space_;
   Vec2 unscale_;
   double aa_, ab_, bb_;
   Known known_;
+  bool constant_;
+  Metric2 everywhere_;  ///< of a constant space
 };
 
 }  // namespace carreau::plane

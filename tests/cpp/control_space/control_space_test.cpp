@@ -211,6 +211,8 @@ TEST(ControlSpace, ConstantGivesBackTheMetric) {
   EXPECT_EQ(space.at({0, 0}), m);
   EXPECT_EQ(space.at({-1e9, 1e9}), m);
   EXPECT_EQ(space.samples(), 0u);
+  EXPECT_TRUE(space.is_constant());
+  EXPECT_FALSE(build(fields::ring(0.1)).is_constant());
 }
 
 // A kink across which the size changes with slope 1/2 in units of itself, and a corner of it: cells stop at a fraction
