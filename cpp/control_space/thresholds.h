@@ -101,7 +101,7 @@ inline constexpr int cut_leaf_points = 4;
 inline constexpr double even_cell = 1.25;
 inline constexpr int min_even_side = 2;
 /// Edges. Length of a side of the box, and squared edges: its area. In larger boxes the tree takes fewer samples.
-inline constexpr double max_even_edges = 40, max_even_edges2 = 100;
+inline constexpr double max_even_edges = 40, max_even_edges2 = 200;
 
 // Undersampled regions
 /// Vertices of a unit mesh. Smaller squares may contain none. [surface: Verification, as all below]

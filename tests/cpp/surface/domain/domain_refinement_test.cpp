@@ -351,5 +351,17 @@ TEST(Balance, ComparesEdgesOfOneCurveOrLoopInTheMetric) {
   EXPECT_THROW(edges_to_split_for_balance(domain.plane, unit, std::nan("")), InvalidArgument);
 }
 
+TEST(Balance, DoublesOverTwoEdgesAtMost) {
+  // Sides of lengths 1, 2, 4, 4 and a last one that closes the loop: exactly geometric.
+  CurvedDomain domain;
+  for (const Vec2& p : {Vec2{0, 0}, {1, 0}, {1, 2}, {-3, 2}, {-3, -2}, {0, -2}}) domain.add_vertex(p);
+  for (int i = 0; i < 6; ++i)
+    domain.add_curve(segment(domain.plane.vertices[i], domain.plane.vertices[(i + 1) % 6]), 1, i, (i + 1) % 6);
+  const std::vector<double> lengths{1, 2, 4, 4, 3, 2};
+  EXPECT_TRUE(edges_to_split_for_balance(domain.plane, lengths, 2, 1).empty());
+  EXPECT_EQ(edges_to_split_for_balance(domain.plane, lengths, 2, 2), (std::vector<int>{2, 4}));
+  EXPECT_TRUE(edges_to_split_for_balance(domain.plane, lengths, 4, 2).empty());
+}
+
 }  // namespace
 }  // namespace carreau
