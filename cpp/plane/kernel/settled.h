@@ -35,7 +35,7 @@ struct Settled {
 
 /// If the metrics M of the corners differ by at most alike_share of the least eigenvalue of their mean N, in spectral
 /// norm, the metric of the fourth vertex beyond an edge of two such triangles differs from N by at most 2.5 times as
-/// much. The mean of the four differs by at most an eighth of N: angles of cosine acute_cosine remain acute. Squared
+/// much. The mean of the four differs by at most an eighth of N: angles of cosine .2 remain acute. Squared
 /// lengths in the mean of two corners are at least 1 - alike_share of the squared lengths in N.
 inline std::uint8_t settled_state(const Vertex& P, const Vertex& Q, const Vertex& R) noexcept {
   // Two by two: of lists a compiler makes loops.

@@ -8,7 +8,7 @@
 
 namespace carreau {
 
-std::vector<double> shared_rows(const Executor& executor, std::string_view step, const Rows& rows, const FillRows& fill, Monitor& monitor) {
+std::vector<double> shared_rows(const Executor& executor, std::string_view step, const SharedRows& rows, const FillRows& fill, Monitor& monitor) {
   std::vector<double> all(rows.count * rows.width);
   const std::size_t pieces = (rows.count + rows.at_once - 1) / rows.at_once;
   const auto first_of = [&](std::size_t piece) { return piece * rows.at_once; };

@@ -63,8 +63,8 @@ std::vector<Result> shared_work(const Executor& executor, std::string_view step,
   return results;
 }
 
-/// Rows of numbers.
-struct Rows {
+/// Rows of numbers that threads and processes fill.
+struct SharedRows {
   std::size_t count = 0;    ///< of rows
   std::size_t width = 1;    ///< numbers of a row
   std::size_t at_once = 1;  ///< rows of a piece of work
@@ -74,6 +74,6 @@ struct Rows {
 /// fill(first, last, out, monitor) writes rows first to last - 1 to `out`, for pieces that do not depend on the executor. All
 /// processes get all rows.
 using FillRows = std::function<void(std::size_t first, std::size_t last, double* out, Monitor& monitor)>;
-std::vector<double> shared_rows(const Executor& executor, std::string_view step, const Rows& rows, const FillRows& fill, Monitor& monitor);
+std::vector<double> shared_rows(const Executor& executor, std::string_view step, const SharedRows& rows, const FillRows& fill, Monitor& monitor);
 
 }  // namespace carreau
