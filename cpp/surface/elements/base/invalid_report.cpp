@@ -4,16 +4,22 @@
 #include <algorithm>
 
 #include "support/error.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
-std::vector<EdgeSizes::Source> finer_sides(std::span<const Vec3> corners, double size, Element element) {
-  double longest = 0;
-  const auto next = [&](std::size_t k) -> const Vec3& { return corners[(k + 1) % corners.size()]; };
-  for (std::size_t k = 0; k < corners.size(); ++k) longest = std::max(longest, norm(next(k) - corners[k]));
-  const double wanted = std::min(longest, size) * (has_quads_only(element) ? 1 : 0.5);
+std::vector<EdgeSizes::Source> finer_sides(const SurfaceMesh& mesh, const FaceMesh& face, const Cell& cell, const std::vector<double>& size, Element element) {
+  const int n = corner_count(cell.kind);
+  const auto vertex = [&](int k) { return face.vertex[cell.nodes[k % n]]; };
+  const auto at = [&](int k) -> const Vec3& { return mesh.vertices[vertex(k)]; };
+  double longest = 0, least = infinity;
+  for (int k = 0; k < n; ++k) {
+    longest = std::max(longest, norm(at(k + 1) - at(k)));
+    if (const double h = size[vertex(k)]; h > 0) least = std::min(least, h);
+  }
+  const double wanted = std::min(longest, least) * (has_quads_only(element) ? 1 : 0.5);
   std::vector<EdgeSizes::Source> sides;
-  for (std::size_t k = 0; k < corners.size(); ++k) sides.push_back({corners[k], next(k), wanted});
+  for (int k = 0; k < n; ++k) sides.push_back({at(k), at(k + 1), wanted});
   return sides;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -13,9 +12,9 @@
 
 namespace carreau {
 
-/// Returns the sides of an element between `corners`, with half of the longest side, or of `size`, as the size (the whole of it where
-/// all elements are cut, since sizes describe the mesh that is cut).
-std::vector<EdgeSizes::Source> finer_sides(std::span<const Vec3> corners, double size, Element element);
+/// Returns the sides of an element of a face. Their size is half of the longest side, or of the least prescribed size (`size`: at the vertices
+/// of the mesh), the whole of it if all elements are cut, since sizes describe the mesh that is cut.
+std::vector<EdgeSizes::Source> finer_sides(const SurfaceMesh& mesh, const FaceMesh& face, const Cell& cell, const std::vector<double>& size, Element element);
 
 /// Gives the face the status `mended`, and adds the returned sentence to its reasons.
 std::string mark_invalid(FaceMesh& face, const Vec2& uv, std::size_t count);
