@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gradation/thresholds.h"
+#include "model/triangle_sides.h"
 #include "support/angles.h"
 #include "support/infinity.h"
 
@@ -39,27 +40,14 @@ namespace {
 
 /// Fills GradedFace::beyond.
 void find_beyond(GradedFace& face) {
-  struct Side {
-    std::array<std::int32_t, 2> key;
-    std::int32_t triangle;
-    int side;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * face.triangles.size());
+  face.beyond = triangles_beyond(face.triangles, face.xyz.size());
   for (std::size_t t = 0; t < face.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t a = face.triangles[t][i], b = face.triangles[t][(i + 1) % 3];
-      sides.push_back({{std::min(a, b), std::max(a, b)}, static_cast<std::int32_t>(t), i});
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::int32_t& beyond = face.beyond[t][i];
+      if (beyond < 0) continue;
+      const std::array<std::int32_t, 3>&own = face.triangles[t], &other = face.triangles[static_cast<std::size_t>(beyond)];
+      beyond = *std::ranges::find_if(other, [&](std::int32_t v) { return v != own[i] && v != own[(i + 1) % 3]; });
     }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& p, const Side& q) { return p.key != q.key ? p.key < q.key : p.triangle < q.triangle; });
-  face.beyond.assign(face.triangles.size(), {-1, -1, -1});
-  for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
-    const Side &p = sides[k], &q = sides[k + 1];
-    if (p.key != q.key) continue;
-    face.beyond[p.triangle][p.side] = face.triangles[q.triangle][(q.side + 2) % 3];
-    face.beyond[q.triangle][q.side] = face.triangles[p.triangle][(p.side + 2) % 3];
-  }
 }
 
 }  // namespace

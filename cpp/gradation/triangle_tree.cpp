@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "gradation/thresholds.h"
+#include "model/triangle_sides.h"
 #include "predicates/clamped_int.h"
 #include "support/rounding_of.h"
 
@@ -47,26 +47,10 @@ TriangleTree::TriangleTree(const std::vector<Vec2>& vertices, const std::vector<
 }
 
 void TriangleTree::join_sides(const std::vector<std::array<std::int32_t, 3>>& triangles) {
-  struct Side {
-    std::int32_t from, to;  // ascending
-    std::size_t triangle, rank;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [a, b] = std::minmax({triangles[t][i], triangles[t][(i + 1) % 3]});
-      sides.push_back({a, b, t, i});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& p, const Side& q) {
-    return std::tie(p.from, p.to, p.triangle) < std::tie(q.from, q.to, q.triangle);
-  });
-  for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
-    const Side &p = sides[k], &q = sides[k + 1];
-    if (p.from != q.from || p.to != q.to) continue;
-    corners_[p.triangle].across[p.rank] = static_cast<std::int32_t>(q.triangle);
-    corners_[q.triangle].across[q.rank] = static_cast<std::int32_t>(p.triangle);
-  }
+  std::int32_t last = 0;
+  for (const auto& t : triangles) last = std::max({last, t[0], t[1], t[2]});
+  const std::vector<std::array<std::int32_t, 3>> beyond = triangles_beyond(triangles, static_cast<std::size_t>(last) + 1);
+  for (std::size_t t = 0; t < triangles.size(); ++t) corners_[t].across = beyond[t];
 }
 
 // About one cell for each triangle; it holds the last centre in it, or the centre of the cell before.

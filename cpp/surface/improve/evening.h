@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mesh/change.h"
+#include "mesh/trial.h"
 #include "metric/unit_edge.h"
 #include "support/rounding_of.h"
 #include "surface/improve/thresholds.h"

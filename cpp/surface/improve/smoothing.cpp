@@ -8,7 +8,6 @@
 #include <unordered_map>
 
 #include "cad/fundamental_forms.h"
-#include "mesh/change.h"
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
 #include "mesh/shape_levels.h"

@@ -188,7 +188,7 @@ TEST(SharedRows, AreMadeOnceAndReachAll) {
     for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i], static_cast<double>(10 * (i / width) + i % width));
   };
   Monitor silent;
-  const Rows rows{.count = n, .width = width, .at_once = 10};
+  const SharedRows rows{.count = n, .width = width, .at_once = 10};
   check(shared_rows({nullptr, 3}, "rows", rows, fill, silent));
   const auto thrown = in_processes(4, [&](Team& team) {
     Monitor own;

@@ -9,19 +9,13 @@
 #include <optional>
 #include <utility>
 
+#include "model/triangle_sides.h"
 #include "model/union_find.h"
 #include "surface/elements/quads/thresholds.h"
 
 namespace carreau {
 
 namespace {
-
-/// A side of a triangle.
-struct Side {
-  MeshEdge edge;
-  std::int32_t triangle, rank;
-  friend auto operator<=>(const Side&, const Side&) = default;
-};
 
 class CellMaker {
  public:
@@ -48,19 +42,13 @@ class CellMaker {
 
  private:
   void join_over_edges() {
-    std::vector<Side> sides;
-    sides.reserve(3 * triangles_.size());
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
-      for (std::int32_t i = 0; i < 3; ++i)
-        sides.push_back({mesh_edge(triangles_[t][i], triangles_[t][(i + 1) % 3]), static_cast<std::int32_t>(t), i});
-    std::ranges::sort(sides);
-    for (std::size_t k = 0, n = 0; k < sides.size(); k += n) {
-      for (n = 1; k + n < sides.size() && sides[k + n].edge == sides[k].edge;) ++n;
-      if (n == 2 && !lines_.is_edge(sides[k].edge)) join(sides[k], sides[k + 1]);
-    }
+    const auto sides = sides_of_triangles(triangles_.size(), vertices_.vertices(), [&](std::size_t t, std::size_t i) { return triangles_[t][i]; });
+    for_edges(sides, [&](std::span<const TriangleSide> of_edge) {
+      if (of_edge.size() == 2 && !lines_.is_edge(of_edge[0].edge)) join(of_edge[0], of_edge[1]);
+    });
   }
-  void join(const Side& s, const Side& t) {
-    const auto at = [&](const Side& side, int k) { return triangles_[side.triangle][(side.rank + k) % 3]; };
+  void join(const TriangleSide& s, const TriangleSide& t) {
+    const auto at = [&](const TriangleSide& side, int k) { return triangles_[side.triangle][(side.rank + k) % 3]; };
     if (at(s, 0) != at(t, 1)) return;  // a Moebius strip
     corners_.merge(3 * s.triangle + s.rank, 3 * t.triangle + (t.rank + 1) % 3);
     corners_.merge(3 * s.triangle + (s.rank + 1) % 3, 3 * t.triangle + t.rank);

@@ -57,17 +57,11 @@ class Finder {
     ++found_.count;
     const int n = corner_count(cell.kind);
     const auto at = [&](int k) { return face.vertex[cell.nodes[k % n]]; };
-    std::array<Vec3, 4> corners;
-    double least = infinity;
-    for (int k = 0; k < n; ++k) {
-      corners[static_cast<std::size_t>(k)] = made_.mesh.vertices[at(k)];
-      if (const double size = made_.vertex_size[at(k)]; size > 0) least = std::min(least, size);
-    }
     std::vector<std::int32_t> faces;  // it may lie over several
     for (int k = 0; k < n; ++k) faces.push_back(face.uv_face[cell.nodes[k]]);
     std::ranges::sort(faces);
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    const auto sides = finer_sides({corners.data(), static_cast<std::size_t>(n)}, least, element_);
+    const auto sides = finer_sides(made_.mesh, face, cell, made_.vertex_size, element_);
     for (const std::int32_t f : faces) found_.finer[f].insert(found_.finer[f].end(), sides.begin(), sides.end());
     for (int k = 0; k < n; ++k) add_coarse(mesh_edge(at(k), at(k + 1)));
   }

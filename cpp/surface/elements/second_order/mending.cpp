@@ -179,7 +179,7 @@ class FaceMender : public Mender<FaceMender, Vec2> {
       for (int i = 0; i < corner_count(cells()[c].kind); ++i)
         if (const CurveSide* side = side_at(cells()[c], i, sides)) element.coarse.push_back({side->curve, side->segment});
       add_cusps(cells()[c], sides, report.cusps);
-      add_finer(cells()[c], element.sides);
+      element.sides = finer_sides(work_.result.mesh, face_, cells()[c], work_.result.vertex_size, work_.options.element);
       report.elements.push_back(std::move(element));
       if (c < face_.quads) report.quads[f_].push_back(c);
     }
@@ -191,17 +191,6 @@ class FaceMender : public Mender<FaceMender, Vec2> {
     Vec2 sum{0, 0};
     for (int i = 0; i < n; ++i) sum += uv(cell.nodes[i]);
     return (1.0 / n) * sum;
-  }
-  void add_finer(const Cell& cell, std::vector<EdgeSizes::Source>& finer) const {
-    const auto n = static_cast<std::size_t>(corner_count(cell.kind));
-    std::array<Vec3, 4> corners;
-    double least = infinity;
-    for (std::size_t i = 0; i < n; ++i) {
-      corners[i] = xyz(cell.nodes[i]);
-      if (const double size = work_.result.vertex_size[face_.vertex[cell.nodes[i]]]; size > 0) least = std::min(least, size);
-    }
-    const auto sides = finer_sides({corners.data(), n}, least, work_.options.element);
-    finer.insert(finer.end(), sides.begin(), sides.end());
   }
   static const CurveSide* side_at(const Cell& cell, int i, const std::vector<CurveSide>& sides) {
     const int n = corner_count(cell.kind);

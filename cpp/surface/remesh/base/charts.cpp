@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cad/fundamental_forms.h"
-#include "model/bucket_sort.h"
+#include "model/triangle_sides.h"
 #include "support/incidence.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"
@@ -17,18 +17,7 @@
 
 namespace carreau {
 
-namespace {
-
 using namespace thresholds::remesh;
-
-struct SideOf {
-  MeshEdge edge{};
-  std::int32_t triangle = -1;
-  int side = 0;
-  friend auto operator<=>(const SideOf&, const SideOf&) = default;
-};
-
-}  // namespace
 
 Charts::Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size,
                PlaneMetrics metrics, Monitor& monitor)
@@ -55,20 +44,13 @@ void Charts::collect(const SurfaceMesh& mesh) {
 }
 
 void Charts::link(std::span<const MeshEdge> barriers) {
-  std::vector<SideOf> sides;
-  sides.reserve(3 * triangles_.size());
-  for (std::size_t t = 0; t < triangles_.size(); ++t)
-    for (int i = 0; i < 3; ++i)
-      sides.push_back({mesh_edge(triangles_[t].vertex[i], triangles_[t].vertex[(i + 1) % 3]),
-                       static_cast<std::int32_t>(t), i});
-  bucket_sort(sides, xyz_.size(), [](const SideOf& s) { return s.edge[0]; });
-  for (std::size_t k = 0, n = 0; k < sides.size(); k += n) {
-    for (n = 1; k + n < sides.size() && sides[k + n].edge == sides[k].edge;) ++n;
-    if (n == 2 && !std::ranges::binary_search(barriers, sides[k].edge))
-      link(sides[k].triangle, sides[k].side, sides[k + 1].triangle, sides[k + 1].side);
+  const auto sides = sides_of_triangles(triangles_.size(), xyz_.size(), [&](std::size_t t, std::size_t i) { return triangles_[t].vertex[i]; });
+  for_edges(sides, [&](std::span<const TriangleSide> of_edge) {
+    if (of_edge.size() == 2 && !std::ranges::binary_search(barriers, of_edge[0].edge))
+      link(of_edge[0].triangle, of_edge[0].rank, of_edge[1].triangle, of_edge[1].rank);
     else
-      for (std::size_t i = k; i < k + n; ++i) barrier_.push_back({sides[i].edge, {sides[i].triangle, sides[i].side}});
-  }
+      for (const TriangleSide& side : of_edge) barrier_.push_back({side.edge, {side.triangle, side.rank}});
+  });
 }
 
 std::vector<Charts::OnEdge> Charts::triangles_on(const MeshEdge& barrier) const {

@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "mesh/change.h"
 #include "mesh/editable_mesh.h"
 #include "mesh/trial.h"
 #include "support/infinity.h"

@@ -20,11 +20,11 @@ namespace {
 using namespace thresholds::remesh;
 
 /// A side of a triangle, by its start.
-struct TriangleSide {
+struct FaceSide {
   MeshEdge edge;
   std::int32_t face, triangle;
   int side;
-  friend auto operator<=>(const TriangleSide&, const TriangleSide&) = default;
+  friend auto operator<=>(const FaceSide&, const FaceSide&) = default;
 };
 
 std::vector<MeshEdge> edges_of_curves(const SurfaceMesh& mesh, bool internal_only) {
@@ -40,8 +40,8 @@ std::vector<MeshEdge> edges_of_curves(const SurfaceMesh& mesh, bool internal_onl
   return edges;
 }
 
-std::vector<TriangleSide> sides_on(const SurfaceMesh& mesh, const std::vector<MeshEdge>& edges) {
-  std::vector<TriangleSide> sides;
+std::vector<FaceSide> sides_on(const SurfaceMesh& mesh, const std::vector<MeshEdge>& edges) {
+  std::vector<FaceSide> sides;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const FaceMesh& face = mesh.faces[f];
     for (std::size_t t = 0; t < face.triangles.size(); ++t)
@@ -51,7 +51,7 @@ std::vector<TriangleSide> sides_on(const SurfaceMesh& mesh, const std::vector<Me
           sides.push_back({edge, static_cast<std::int32_t>(f), static_cast<std::int32_t>(t), i});
       }
   }
-  bucket_sort(sides, mesh.vertices.size(), [](const TriangleSide& s) { return s.edge[0]; });
+  bucket_sort(sides, mesh.vertices.size(), [](const FaceSide& s) { return s.edge[0]; });
   return sides;
 }
 
@@ -61,7 +61,7 @@ class EdgeAngle {
   EdgeAngle(const SurfaceMesh& mesh, const VertexJets& jets, double angle)
       : mesh_(mesh), jets_(jets), cosine_(std::cos(angle * std::numbers::pi / 180)) {}
 
-  [[nodiscard]] bool is_sharp(const TriangleSide& p, const TriangleSide& q) const {
+  [[nodiscard]] bool is_sharp(const FaceSide& p, const FaceSide& q) const {
     const auto [a, b] = ends(p);
     auto [c, d] = ends(q);
     const bool opposite = vertex(p.face, a) == vertex(q.face, d);
@@ -78,14 +78,14 @@ class EdgeAngle {
   }
 
  private:
-  [[nodiscard]] std::array<std::int32_t, 2> ends(const TriangleSide& s) const {
+  [[nodiscard]] std::array<std::int32_t, 2> ends(const FaceSide& s) const {
     const auto& t = mesh_.faces[s.face].triangles[s.triangle];
     return {t[s.side], t[(s.side + 1) % 3]};
   }
   [[nodiscard]] std::int32_t vertex(std::int32_t face, std::int32_t local) const {
     return mesh_.faces[face].vertex[local];
   }
-  [[nodiscard]] Vec3 normal(const TriangleSide& s) const {
+  [[nodiscard]] Vec3 normal(const FaceSide& s) const {
     const auto& t = mesh_.faces[s.face].triangles[s.triangle];
     const auto corner = [&](int i) -> const Vec3& { return mesh_.vertices[vertex(s.face, t[i])]; };
     return cross(corner(1) - corner(0), corner(2) - corner(0));
@@ -211,7 +211,7 @@ VertexJets evaluate_vertices(const SurfaceMesh& mesh, Cad& cad, Monitor& monitor
 
 std::vector<MeshEdge> find_sharp_edges(const SurfaceMesh& mesh, const VertexJets& jets, double angle) {
   const std::vector<MeshEdge> edges = edges_of_curves(mesh, false), internal = edges_of_curves(mesh, true);
-  const std::vector<TriangleSide> sides = sides_on(mesh, edges);
+  const std::vector<FaceSide> sides = sides_on(mesh, edges);
   const EdgeAngle between(mesh, jets, angle);
   std::vector<MeshEdge> sharp;
   for (std::size_t k = 0, n = 0; k < sides.size(); k += n) {
