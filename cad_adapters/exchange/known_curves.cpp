@@ -50,15 +50,18 @@ SpaceCurve curve_of(const BRep_TEdge& edge) {
     const auto& found = static_cast<const BRep_Curve3D&>(*it.Value());
     if (found.Curve3D().IsNull() || !found.Location().IsIdentity()) return {};
     found.Range(space.first, space.last);
-    if (const auto* const line = dynamic_cast<const Geom_Line*>(found.Curve3D().get())) {
-      set(space.numbers, 0, line->Position().Location().XYZ());
-      set(space.numbers, 3, line->Position().Direction().XYZ());
-    } else if (const auto* const circle = dynamic_cast<const Geom_Circle*>(found.Curve3D().get())) {
-      set(space.numbers, 0, circle->Position().Location().XYZ());
-      set(space.numbers, 3, circle->Position().Direction().XYZ());
-      set(space.numbers, 6, circle->Position().XDirection().XYZ());
-      set(space.numbers, 9, circle->Position().YDirection().XYZ());
-      space.numbers[12] = circle->Radius();
+    const Handle(Standard_Type) type = found.Curve3D()->DynamicType();
+    if (type == STANDARD_TYPE(Geom_Line)) {
+      const auto& line = static_cast<const Geom_Line&>(*found.Curve3D());
+      set(space.numbers, 0, line.Position().Location().XYZ());
+      set(space.numbers, 3, line.Position().Direction().XYZ());
+    } else if (type == STANDARD_TYPE(Geom_Circle)) {
+      const auto& circle = static_cast<const Geom_Circle&>(*found.Curve3D());
+      set(space.numbers, 0, circle.Position().Location().XYZ());
+      set(space.numbers, 3, circle.Position().Direction().XYZ());
+      set(space.numbers, 6, circle.Position().XDirection().XYZ());
+      set(space.numbers, 9, circle.Position().YDirection().XYZ());
+      space.numbers[12] = circle.Radius();
     } else {
       return {};
     }

@@ -88,20 +88,16 @@ Spline StepEntities::spline(const Entity& entity) const {
 }
 
 bool StepEntities::mend_numbers(const Entity& entity) const {
-  const auto point = Handle(StepGeom_CartesianPoint)::DownCast(entity);
-  const auto vector = Handle(StepGeom_Direction)::DownCast(entity);
+  const auto point = as<StepGeom_CartesianPoint>(entity);
+  const auto vector = point.IsNull() ? as<StepGeom_Direction>(entity) : Handle(StepGeom_Direction)();
   const int n = !point.IsNull() ? point->NbCoordinates() : !vector.IsNull() ? vector->NbDirectionRatios() : 0;
-  if (n < 1) return false;
+  const auto number = [&](int i) { return point.IsNull() ? vector->DirectionRatiosValue(i) : point->CoordinatesValue(i); };
+  int good = 0;
+  for (int i = 1; i <= n; ++i) good += usable(number(i)) ? 1 : 0;
+  if (good == n) return false;
   const Handle(TColStd_HArray1OfReal) numbers = new TColStd_HArray1OfReal(1, n, 0.);
-  bool good = true;
-  for (int i = 1; i <= n; ++i) {
-    const double x = point.IsNull() ? vector->DirectionRatiosValue(i) : point->CoordinatesValue(i);
-    if (usable(x))
-      numbers->SetValue(i, x);
-    else
-      good = false;
-  }
-  if (good) return false;
+  for (int i = 1; i <= n; ++i)
+    if (usable(number(i))) numbers->SetValue(i, number(i));
   if (point.IsNull())
     vector->SetDirectionRatios(numbers);
   else
@@ -110,7 +106,7 @@ bool StepEntities::mend_numbers(const Entity& entity) const {
 }
 
 std::string StepEntities::lost_scale(const Entity& entity) const {
-  const auto place = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(entity);
+  const auto place = as<StepGeom_CartesianTransformationOperator3d>(entity);
   if (place.IsNull() || !place->HasScale() || place->Scale() == 1) return "";
   return "its scale of " + printed(place->Scale()) + " is not applied: the placed part keeps its size";
 }

@@ -33,6 +33,7 @@
 #include <initializer_list>
 #include <set>
 
+#include "entity_kinds.h"
 #include "step_parts.h"
 #include "text_of_file.h"
 
@@ -208,7 +209,7 @@ void read_step_names_inside(const StepParts& parts) {
 void read_step_layers(const StepParts& parts) {
   const Handle(Interface_InterfaceModel) model = parts.session->Model();
   for (int i = 1; i <= model->NbEntities(); ++i) {
-    const auto layer = Handle(StepVisual_PresentationLayerAssignment)::DownCast(model->Value(i));
+    const auto layer = as<StepVisual_PresentationLayerAssignment>(model->Value(i));
     if (layer.IsNull() || layer->Name().IsNull() || layer->AssignedItems().IsNull()) continue;
     const std::string name = utf8(layer->Name()->String());
     for (int k = 1; k <= layer->NbAssignedItems() && !name.empty(); ++k) set_layer(layer->AssignedItemsValue(k).Value(), name, parts);

@@ -148,7 +148,7 @@ void StepReader::find_products(STEPControl_Reader& reader, StepParts& parts) {
   const Handle(Interface_InterfaceModel) model = reader.Model();
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const Handle(Standard_Transient) entity = model->Value(i);
-    const auto product = Handle(StepBasic_ProductDefinition)::DownCast(entity);
+    const auto product = as<StepBasic_ProductDefinition>(entity);
     if (product.IsNull() && !is<StepShape_ShapeRepresentation>(entity)) continue;
     const int index = parts.process->MapIndex(entity);
     if (index <= 0) continue;

@@ -22,6 +22,8 @@
 #include <set>
 #include <vector>
 
+#include "entity_kinds.h"
+
 namespace carreau_occ {
 namespace {
 
@@ -86,10 +88,10 @@ class ZeroEdges {
   }
 
  private:
-  template <typename Entity, typename Visit>
+  template <typename Type, typename Visit>
   void for_each(Visit&& visit) {
     for (int i = 1; i <= model_->NbEntities(); ++i)
-      if (const auto entity = Handle(Entity)::DownCast(model_->Value(i)); !entity.IsNull()) visit(entity);
+      if (const auto entity = as<Type>(model_->Value(i)); !entity.IsNull()) visit(entity);
   }
 
   [[nodiscard]] Vertex representative(Vertex vertex) const {

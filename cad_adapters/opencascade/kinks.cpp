@@ -9,6 +9,8 @@
 #include <gp_Vec.hxx>
 #include <numbers>
 
+#include "elementary_box.h"
+
 namespace carreau_occ {
 namespace {
 
@@ -69,6 +71,7 @@ void look_for(const BRepAdaptor_Surface& surface, bool of_u, std::vector<Kink>& 
 }  // namespace
 
 std::vector<Kink> kinks_of(const TopoDS_Face& face) {
+  if (is_elementary(face)) return {};  // the box of the face would take most of the time
   const BRepAdaptor_Surface surface(face);  // the box of the face, not of its surface
   std::vector<Kink> kinks;
   look_for(surface, true, kinks);
@@ -77,6 +80,7 @@ std::vector<Kink> kinks_of(const TopoDS_Face& face) {
 }
 
 ClosingKink closing_kink_of(const TopoDS_Face& face) {
+  if (is_elementary(face)) return {};
   const BRepAdaptor_Surface surface(face);
   ClosingKink kink{.low_u = surface.FirstUParameter(),
                    .high_u = surface.LastUParameter(),

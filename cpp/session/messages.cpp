@@ -8,6 +8,7 @@
 #include "measure/strips_note.h"
 #include "mesh/flat_mesh.h"
 #include "support/format.h"
+#include "support/ranks/all_that_hold.h"
 #include "support/short_number.h"
 
 namespace carreau {
@@ -42,20 +43,20 @@ bool is_surely_not_flat(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
 
 }  // namespace
 
-void report_flat_triangles(SurfaceMesh& mesh, Monitor& monitor) {
+void report_flat_triangles(SurfaceMesh& mesh, int threads, Monitor& monitor) {
   for (FaceMesh& face : mesh.faces) {
     if (face.status != FaceStatus::meshed && face.status != FaceStatus::mended) continue;
-    std::size_t flat = 0;
+    const auto is_flat = [&](std::size_t t) {
+      const auto at = [&](std::size_t k) -> const Vec3& { return mesh.vertices[face.vertex[face.triangles[t][k]]]; };
+      return !is_surely_not_flat(at(0), at(1), at(2)) && quality_q2(at(0), at(1), at(2)) <= flat_quality;
+    };
+    const std::vector<std::int32_t> flat = all_that_hold(face.triangles.size(), {nullptr, threads}, "", monitor, is_flat);
+    if (flat.empty()) continue;
     Where where{.face = face.ref};
-    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-      const auto& [a, b, c] = face.triangles[t];
-      const auto at = [&](std::int32_t v) -> const Vec3& { return mesh.vertices[face.vertex[v]]; };
-      if (is_surely_not_flat(at(a), at(b), at(c)) || quality_q2(at(a), at(b), at(c)) > flat_quality) continue;
-      if (flat++ == 0 && !face.is_spread(t)) where.uv = (face.uv[a] + face.uv[b] + face.uv[c]) / 3;
-    }
-    if (flat == 0) continue;
-    const std::string what = where.prefix() + std::to_string(flat) +
-                             (flat == 1 ? " triangle has no area in space" : " triangles have no area in space");
+    const auto& [a, b, c] = face.triangles[flat.front()];
+    if (!face.is_spread(flat.front())) where.uv = (face.uv[a] + face.uv[b] + face.uv[c]) / 3;
+    const std::string what = where.prefix() + std::to_string(flat.size()) +
+                             (flat.size() == 1 ? " triangle has no area in space" : " triangles have no area in space");
     face.status = FaceStatus::mended;
     face.why += (face.why.empty() ? "" : "; ") + what;
     monitor.message(Level::warning, what);

@@ -21,7 +21,7 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
 
 /// Sets the status of faces with triangles without area in space to `mended`, with a reason, and warns of them: two
 /// points of the geometry coincide there, or it folds.
-void report_flat_triangles(SurfaceMesh& mesh, Monitor& monitor);
+void report_flat_triangles(SurfaceMesh& mesh, int threads, Monitor& monitor);
 
 /// A summary of a run in a few lines.
 void describe_result(const CompositeResult& result, const QualitySummary& shapes, Monitor& monitor);

@@ -11,6 +11,7 @@
 #include "mesh/elements/jacobian.h"
 #include "support/error.h"
 #include "support/infinity.h"
+#include "support/ranks/all_that_hold.h"
 #include "surface/assembly/whole_mesh.h"
 #include "surface/elements/base/invalid_report.h"
 #include "surface/remesh/base/charts.h"
@@ -148,21 +149,27 @@ std::vector<AtCurves<2>> wanted_at_curves(const SurfaceMesh& mesh) {
   return wanted;
 }
 
-bool joins_wrongly_at_curves(const SurfaceMesh& mesh) {
+bool joins_wrongly_at_curves(const SurfaceMesh& mesh, int threads, Monitor& monitor) {
   std::vector<char> on_curve(mesh.vertices.size(), 0);
   for (const CurveMesh& curve : mesh.curves)
     for (const std::int32_t v : curve.vertices) on_curve[v] = 1;
   std::vector<AtCurves<2>> edges;
   std::vector<std::array<std::int32_t, 3>> triangles;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (const auto& t : mesh.faces[f].triangles) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const FaceMesh& face = mesh.faces[f];
+    const auto is_on = [&](std::int32_t v) { return on_curve[face.vertex[v]] != 0; };
+    const auto touches = [&](std::size_t t) {
+      return is_on(face.triangles[t][0]) || is_on(face.triangles[t][1]) || is_on(face.triangles[t][2]);
+    };
+    for (const std::int32_t t : all_that_hold(face.triangles.size(), {nullptr, threads}, "", monitor, touches)) {
       std::array<std::int32_t, 3> v{};
-      for (std::size_t i = 0; i < 3; ++i) v[i] = mesh.faces[f].vertex[t[i]];
-      const std::array<bool, 3> on{on_curve[v[0]] != 0, on_curve[v[1]] != 0, on_curve[v[2]] != 0};
-      if (on[0] || on[1] || on[2]) triangles.push_back(ascending(v));
+      for (std::size_t i = 0; i < 3; ++i) v[i] = face.vertex[face.triangles[t][i]];
+      triangles.push_back(ascending(v));
       for (std::size_t i = 0; i < 3; ++i)
-        if (on[i] || on[(i + 1) % 3]) edges.push_back({ascending<2>({v[i], v[(i + 1) % 3]}), static_cast<std::int32_t>(f)});
+        if (on_curve[v[i]] != 0 || on_curve[v[(i + 1) % 3]] != 0)
+          edges.push_back({ascending<2>({v[i], v[(i + 1) % 3]}), static_cast<std::int32_t>(f)});
     }
+  }
   std::ranges::sort(triangles);
   if (std::ranges::adjacent_find(triangles) != triangles.end()) return true;
   std::ranges::sort(edges);
@@ -207,8 +214,8 @@ bool fail_empty_faces(SurfaceMesh& mesh) {
 
 }  // namespace
 
-bool fail_unsound_faces(SizedMesh& made) {
-  const bool empty = fail_empty_faces(made.mesh), wrong = joins_wrongly_at_curves(made.mesh);
+bool fail_unsound_faces(SizedMesh& made, int threads, Monitor& monitor) {
+  const bool empty = fail_empty_faces(made.mesh), wrong = joins_wrongly_at_curves(made.mesh, threads, monitor);
   if (wrong) fail_wrong_joints(made);
   if (empty || wrong) drop_lost(made);
   return empty || wrong;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gradation/edge_sizes.h"
+#include "support/monitor.h"
 #include "surface/options.h"
 #include "surface/result.h"
 
@@ -41,6 +42,6 @@ void fail_wrong_joints(SizedMesh& made);
 /// Fails faces without a triangle, and faces with an edge or a triangle that is joined wrongly at a vertex of a curve. Other edges are not
 /// looked at. Faces whose curves meet in more vertices than they should are joined so. Vertices that are lost with faces are dropped.
 /// False: nothing has failed.
-bool fail_unsound_faces(SizedMesh& made);
+bool fail_unsound_faces(SizedMesh& made, int threads, Monitor& monitor);
 
 }  // namespace carreau
