@@ -12,6 +12,7 @@
 #include "high_order/raise_order.h"
 #include "high_order/thresholds.h"
 #include "model/format_point.h"
+#include "pipeline/base/run.h"
 #include "session/gluing.h"
 #include "session/options.h"
 #include "session/state.h"
@@ -45,10 +46,6 @@ class TrialMonitor final : public Monitor {
 bool has_new_reasons(const SurfaceMesh& before, const SurfaceMesh& after) {
   return !std::equal(before.faces.begin(), before.faces.end(), after.faces.begin(), after.faces.end(),
                      [](const FaceMesh& p, const FaceMesh& q) { return p.why == q.why; });
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
