@@ -12,7 +12,7 @@
 #include "association/mesh_curves.h"
 #include "high_order/thresholds.h"
 #include "mesh/local_search.h"
-#include "mesh/nodes_by_place.h"
+#include "model/nodes_by_place.h"
 #include "periodic/closest.h"
 #include "periodic/thresholds.h"
 #include "support/error.h"
