@@ -5,7 +5,7 @@
 
 #include "high_order/raiser.h"
 #include "high_order/thresholds.h"
-#include "mesh/nodes_by_place.h"
+#include "model/nodes_by_place.h"
 #include "periodic/thresholds.h"
 #include "support/infinity.h"
 #include "support/rounding_of.h"

@@ -318,7 +318,7 @@ class Matcher {
     return "nearest is face " + std::to_string(ref(slave)) + ": " + why_not(master, slave, map);
   }
 
-  // Of a plane domain or of one sheet.
+  // The curves of a plane domain or of one sheet.
   [[nodiscard]] std::string nearest_curves(const Isometry& map) const {
     double nearest = infinity;
     Vec3 where(0, 0, 0);

@@ -107,7 +107,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   MeshRounds rounds(run);
   rounds.mesh_first();
   for (const std::unique_ptr<Inspector>& inspector : inspectors_of(run)) rounds.refine(*inspector);
-  if (!run.options.parts && fail_unsound_faces(run.result, run.options.threads, run.monitor)) {
+  if (!run.options.parts && fail_unsound_faces(run.result, run.options.executor.threads, run.monitor)) {
     run.result.report.crossings = -1;  // numbers of triangles have changed
     run.result.crossings.clear();
   }

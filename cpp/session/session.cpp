@@ -382,7 +382,7 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
                           const std::shared_ptr<BackgroundField>& background, Monitor& measuring) {
   State& s = *state_;
   const bool measured = s.parameters.integer("measure") != 0;
-  report_flat_triangles(result.mesh, options.threads, s.monitor);
+  report_flat_triangles(result.mesh, options.executor.threads, s.monitor);
   if (s.team) require_same_mesh(*s.team, result.mesh);
   options.executor.team = nullptr;  // the mesh outlives it
   std::vector<Interface> interfaces = list_interfaces(model, topology, result.gaps, s.glued);

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "geometry/discrete/triangulation.h"
-#include "mesh/nodes_by_place.h"
+#include "model/nodes_by_place.h"
 #include "support/error.h"
 #include "support/infinity.h"
 #include "support/shares.h"

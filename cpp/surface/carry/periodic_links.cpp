@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "mesh/nodes_by_place.h"
+#include "model/nodes_by_place.h"
 #include "periodic/root_maps.h"
 #include "periodic/shared_curves.h"
 #include "surface/carry/carry_patch.h"
