@@ -10,7 +10,6 @@
 #include "cad/cad.h"
 #include "cad/parameter_domain.h"
 #include "cad/stencil.h"
-#include "cad/trimmed_domain.h"
 
 namespace carreau {
 

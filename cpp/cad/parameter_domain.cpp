@@ -10,6 +10,7 @@
 
 #include "predicates/polygon_locator.h"
 #include "support/infinity.h"
+#include "support/rounding_of.h"
 
 namespace carreau {
 
@@ -30,6 +31,29 @@ BoxTree::Box box_around(const Vec2& a, const Vec2& b, double margin) {
   box.add({a.x(), a.y(), 0}), box.add({b.x(), b.y(), 0});
   box.low -= Vec3{margin, margin, 0}, box.high += Vec3{margin, margin, 0};
   return box;
+}
+
+/// Share of a chord. Curves leave the chords of their supports by less; nearer places are decided by the curve itself.
+/// [Projector.TrimmedPlane]
+constexpr double beside_chord = 0.05;
+/// Share of a chord: places on both sides of its middle, by which a curve that is given twice is found.
+constexpr double beside_middle = 1e-6;
+/// Share of the extents, and of a chord: places of a curve after its calculation.
+constexpr double on_curve = 1e-13;
+/// Steps of Newton's method from the middle of a piece.
+constexpr int newton_steps = 12;
+constexpr unsigned everything = want_position | want_first | want_second;
+
+double length_of(const std::vector<Vec3>& points) {
+  double length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i] - points[i - 1]);
+  return length;
+}
+
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double square = dot(d, d), share = square > 0 ? std::clamp(dot(p - a, d) / square, 0.0, 1.0) : 0;
+  return norm(p - a - share * d);
 }
 
 }  // namespace
@@ -113,6 +137,142 @@ bool ParameterDomain::admits(const Vec2& from, std::span<const Vec2> to) const {
                         }
                       });
   return admitted;
+}
+
+TrimmedDomain::TrimmedDomain(int face, std::vector<BoundaryCurve> boundary) : ref_(face) {
+  const auto [low, high] = box_of(boundary);
+  low_ = low, size_ = high - low;
+  join_ends(boundary);
+  for (const BoundaryCurve& curve : boundary) {
+    std::vector<Vec3> in_square;
+    for (const Vec2& p : curve.uv) in_square.push_back(scaled(p));
+    const double whole = length_of(in_square);
+    for (std::size_t i = 0; i < curve.uv.size(); ++i) {
+      vertices_.push_back(curve.uv[i]);
+      if (i == 0) continue;
+      edges_.emplace_back(static_cast<int>(vertices_.size()) - 2, static_cast<int>(vertices_.size()) - 1);
+      pieces_.push_back({curve.ic, curve.t[i - 1], curve.t[i], curve.t.front(), curve.t.back(),
+                         beside_chord * norm(in_square[i] - in_square[i - 1]) + 1e-5 * whole});
+    }
+  }
+  polygon_.emplace(vertices_, edges_);
+  std::vector<BoxTree::Box> boxes(edges_.size());
+  std::vector<Vec3> centres(edges_.size());
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const Vec3 p = scaled(vertices_[static_cast<std::size_t>(edges_[e].first)]), q = scaled(vertices_[static_cast<std::size_t>(edges_[e].second)]);
+    const Vec3 margin{pieces_[e].margin, pieces_[e].margin, 0};
+    boxes[e].add(p), boxes[e].add(q);
+    boxes[e].low -= margin, boxes[e].high += margin;
+    centres[e] = (p + q) / 2;
+  }
+  tree_ = BoxTree(boxes, centres);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const Vec2 &p = vertices_[static_cast<std::size_t>(edges_[e].first)], &q = vertices_[static_cast<std::size_t>(edges_[e].second)];
+    const Vec2 middle = (p + q) / 2, beside = beside_middle * Vec2{p.y() - q.y(), q.x() - p.x()};
+    pieces_[e].both_sides_inside = polygon_->contains(middle + beside) && polygon_->contains(middle - beside);
+  }
+}
+
+TrimmedDomain::Side TrimmedDomain::side_of(const Vec2& low, const Vec2& high) const {
+  BoxTree::Box box;
+  box.add(scaled(low)), box.add(scaled(high));
+  bool near = false;
+  tree_.all_that_meet([&](const BoxTree::Box& other) { return !near && !box.is_apart(other); },
+                      [&](const BoxTree::Node& leaf) {
+                        for (const std::int32_t e : tree_.things(leaf)) {
+                          const auto& [a, b] = edges_[static_cast<std::size_t>(e)];
+                          BoxTree::Box edge;
+                          edge.add(scaled(vertices_[static_cast<std::size_t>(a)])), edge.add(scaled(vertices_[static_cast<std::size_t>(b)]));
+                          const Vec3 margin{pieces_[static_cast<std::size_t>(e)].margin, pieces_[static_cast<std::size_t>(e)].margin, 0};
+                          edge.low -= margin, edge.high += margin;
+                          near = near || !box.is_apart(edge);
+                        }
+                      });
+  if (near) return Side::crossing;
+  return polygon_->contains((low + high) / 2) ? Side::inside : Side::outside;
+}
+
+double TrimmedDomain::distance_to(std::int32_t edge, const Vec3& p) const {
+  const auto& [a, b] = edges_[static_cast<std::size_t>(edge)];
+  return distance_to_segment(p, scaled(vertices_[static_cast<std::size_t>(a)]), scaled(vertices_[static_cast<std::size_t>(b)]));
+}
+
+// The closest place of a curve, in units of the square.
+Vec2 TrimmedDomain::closest_of(const Piece& piece, const Vec2& uv, Cad& cad) const {
+  double t = (piece.t0 + piece.t1) / 2;
+  CurveJet jet = cad.curve(ref_, piece.ic, everything, t);
+  for (int k = 0; k < newton_steps; ++k) {
+    const Vec2 r = (jet.c - uv).cwiseQuotient(size_), d = jet.ct.cwiseQuotient(size_), dd = jet.ctt.cwiseQuotient(size_);
+    const double slope = dot(r, d), speed = dot(d, d), bend = speed + dot(r, dd);
+    if (!(speed > 0)) break;
+    const double to = std::clamp(t - slope / (bend > 0.1 * speed ? bend : speed), piece.a, piece.b);
+    if (std::abs(to - t) <= rounding_of::digits * (piece.b - piece.a)) break;
+    t = to, jet = cad.curve(ref_, piece.ic, everything, t);
+  }
+  return jet.c;
+}
+
+// Beside an edge, in its direction and across it: a place, and the curve, which is a graph over the edge.
+TrimmedDomain::Beside TrimmedDomain::beside(std::int32_t edge, const Vec2& uv, Cad& cad) const {
+  const auto& [first, second] = edges_[static_cast<std::size_t>(edge)];
+  const Piece& piece = pieces_[static_cast<std::size_t>(edge)];
+  const Vec2 from = vertices_[static_cast<std::size_t>(first)], chord = (vertices_[static_cast<std::size_t>(second)] - from).cwiseQuotient(size_);
+  const double length = norm(chord);
+  if (!(length > 0)) return {};
+  const auto along = [&](const Vec2& d) { return dot(d, chord) / length; };
+  const auto across = [&](const Vec2& d) { return cross(chord, d) / length; };
+  const Vec2 p = (uv - from).cwiseQuotient(size_);
+  Beside beside{.share = along(p) / length, .place = across(p)};
+  if (!(beside.share >= -on_curve && beside.share <= 1 + on_curve)) return beside;
+  double low = piece.t0, high = piece.t1, t = low + std::clamp(beside.share, 0.0, 1.0) * (high - low);
+  for (int k = 0; k < rounding_of::max_steps; ++k) {
+    const CurveJet jet = cad.curve(ref_, piece.ic, want_position | want_first, t);
+    const Vec2 q = (jet.c - from).cwiseQuotient(size_), d = jet.ct.cwiseQuotient(size_);
+    const double off = along(p - q), speed = along(d);
+    beside.curve = across(q);
+    if (std::abs(off) <= on_curve * length) break;
+    (off > 0 ? low : high) = t;
+    const double to = t + off / speed;
+    const double next = speed > 0 && to > low && to < high ? to : (low + high) / 2;
+    if (std::abs(next - t) <= rounding_of::digits * (piece.b - piece.a)) break;
+    t = next;
+  }
+  return beside;
+}
+
+// The even-odd rule puts a place between a curve and its chord on the other side than the polygon reports.
+bool TrimmedDomain::contains(const Vec2& uv, Cad& cad) const {
+  const Vec3 p = scaled(uv);
+  bool inside = polygon_->contains(uv), on_boundary = false;
+  tree_.all_that_meet([&](const BoxTree::Box& box) { return !on_boundary && box.squared_distance(p) <= 0; },
+                      [&](const BoxTree::Node& leaf) {
+                        for (const std::int32_t e : tree_.things(leaf)) {
+                          const Piece& piece = pieces_[static_cast<std::size_t>(e)];
+                          if (on_boundary || piece.both_sides_inside || distance_to(e, p) > piece.margin) continue;
+                          const auto [share, place, curve] = beside(e, uv, cad);
+                          if (!(share >= -on_curve && share <= 1 + on_curve)) continue;
+                          on_boundary = std::abs(place - curve) <= on_curve;
+                          if (share >= 0 && share < 1 && place * curve > 0 && std::abs(place) < std::abs(curve)) inside = !inside;
+                        }
+                      });
+  return inside || on_boundary;
+}
+
+std::optional<Vec2> TrimmedDomain::closest_from_outside(const Vec2& uv, Cad& cad) const {
+  if (edges_.empty() || contains(uv, cad)) return {};
+  const Vec3 p = scaled(uv);
+  double nearest = infinity;
+  std::int32_t edge = 0;
+  tree_.nearest_first([&](std::size_t n) { return tree_.node(n).box.squared_distance(p); },
+                      [&](double bound) { return bound <= nearest * nearest; },
+                      [&](const BoxTree::Node& leaf) {
+                        for (const std::int32_t e : tree_.things(leaf)) {
+                          if (pieces_[static_cast<std::size_t>(e)].both_sides_inside) continue;
+                          const double d = distance_to(e, p);
+                          if (d < nearest || (d == nearest && e < edge)) nearest = d, edge = e;
+                        }
+                      });
+  return closest_of(pieces_[static_cast<std::size_t>(edge)], uv, cad);
 }
 
 }  // namespace carreau

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cad/cad.h"
-#include "cad/trimmed_domain.h"
+#include "cad/parameter_domain.h"
 #include "curve/support.h"
 #include "model/model.h"
 #include "projection/restricted_step.h"

@@ -15,7 +15,6 @@
 #include "cad/fundamental_forms.h"
 #include "cad/parameter_domain.h"
 #include "cad/stencil.h"
-#include "cad/trimmed_domain.h"
 #include "surfaces.h"
 
 namespace carreau {
