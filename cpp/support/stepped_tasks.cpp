@@ -53,14 +53,16 @@ void run_alone(std::span<const std::unique_ptr<SteppedTask>> tasks, const Steppe
   }
 }
 
-/// Lets helpers into a run. A helper that arrives after the run finds the gate closed, and the run never waits for an
-/// absent helper. Without memory oneTBB may fail to start a helper that it has taken, or start it although it has thrown.
+/// Lets as many helpers into a run as it may have. A helper that arrives after the run finds the gate closed, and the run
+/// never waits for an absent helper. Without memory oneTBB may fail to start a helper that it has taken, or start it although it has thrown.
 class Gate {
  public:
+  explicit Gate(int helpers) : helpers_(helpers) {}
   [[nodiscard]] bool enter() {
     const std::scoped_lock lock(mutex_);
-    if (!closed_) ++inside_;
-    return !closed_;
+    const bool open = !closed_ && inside_ < helpers_;
+    if (open) ++inside_;
+    return open;
   }
   void leave() {
     const std::scoped_lock lock(mutex_);
@@ -77,6 +79,7 @@ class Gate {
  private:
   std::mutex mutex_;
   std::condition_variable left_;
+  int helpers_;
   int inside_ = 0;
   bool closed_ = false;
 };
@@ -92,6 +95,7 @@ class ThreadedRun {
         monitor_(monitor),
         errors_(tasks.size()),
         done_(tasks.size(), 0),
+        gate_(std::make_shared<Gate>(threads - 1)),
         helping_(threads) {
     for (std::size_t i = 0; i < tasks.size(); ++i)
       monitors_.push_back(std::make_unique<TaskMonitor>(i, monitor, first_failed_));
@@ -109,6 +113,7 @@ class ThreadedRun {
     {
       const std::scoped_lock lock(mutex_);
       waiting_.clear();
+      free_.clear();
     }
     gate_->close();
   }
@@ -168,14 +173,16 @@ class ThreadedRun {
     }
   }
 
-  /// One is sent for each task that becomes free; it finds none when the calling thread was faster.
+  /// One is sent for each task that becomes free, and works as long as there are free tasks; it finds none when the
+  /// others were faster.
   void help() {
-    std::size_t task = none;
-    {
-      const std::scoped_lock lock(mutex_);
-      task = pop(free_);
-    }
-    if (task != none) {
+    for (;;) {
+      std::size_t task = none;
+      {
+        const std::scoped_lock lock(mutex_);
+        task = pop(free_);
+      }
+      if (task == none) return;
       work_on(task);
       // The calling thread may be long at work.
       try {
@@ -257,7 +264,7 @@ class ThreadedRun {
   std::deque<std::size_t> bound_, free_;
   std::vector<std::exception_ptr> errors_;
   std::vector<char> done_;
-  std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
+  std::shared_ptr<Gate> gate_;
   Helpers helping_;
 };
 

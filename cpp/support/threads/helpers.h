@@ -10,7 +10,8 @@ namespace carreau {
 
 class Helpers {
  public:
-  /// At most `threads` at work, the calling one among them: above 1.
+  /// For `threads` threads, the calling one among them: above 1. If oneTBB has more, more of them may run work; then
+  /// the work itself limits their number.
   explicit Helpers(int threads);
   /// Work that no thread has begun may be left undone, or be done later on; threads of the standard library end.
   ~Helpers();

@@ -24,12 +24,20 @@ char handed_over;  // its address only
 
 namespace carreau {
 
+/// The arena that oneTBB keeps for the calling thread. A worker that waits in an arena for more work, as it does for a
+/// while, finds no work in other arenas: with an arena for each run it would come late to the next run.
 struct Helpers::State {
-  explicit State(int threads) : arena(threads, 1) {}
-  tbb::task_arena arena;  // of the calling thread and its helpers
+  static tbb::task_arena::attach prepared() {
+    try {
+      tbb::this_task_arena::isolate([] {});  // the first use of oneTBB makes the arena
+    } catch (...) {                          // no memory: send() tries again, with an arena of its own
+    }
+    return {};
+  }
+  tbb::task_arena arena{prepared()};
 };
 
-Helpers::Helpers(int threads) : state_(std::make_unique<State>(threads)) {}
+Helpers::Helpers(int) : state_(std::make_unique<State>()) {}
 Helpers::~Helpers() = default;
 
 void Helpers::send(std::function<void()> work) {
