@@ -229,7 +229,7 @@ std::vector<WorstShape> worst_shapes(const SurfaceMesh& mesh) {
     const FaceMesh& face = mesh.faces[f];
     for (const Triangle& t : face.triangles)
       if (const double shape = shape_of(face, t, mesh.vertices); shape < worst[f].shape) worst[f].shape = shape, worst[f].vertex = face.vertex[t[0]];
-    if (face.quads > 0 || worst[f].shape < 0) worst[f].turned = find_turned(face, mesh.vertices);
+    if (mesh.mid_vertices.empty() && (face.quads > 0 || worst[f].shape < 0)) worst[f].turned = find_turned(face, mesh.vertices);
   }
   return worst;
 }
@@ -239,6 +239,7 @@ void report_losses(SurfaceMesh& mesh, std::span<const WorstShape> before, const 
   for (std::size_t f = 0; f < after.size(); ++f) {
     const auto& [shape, vertex, turned] = after[f];
     FaceMesh& face = mesh.faces[f];
+    if (shape < 0 && !mesh.mid_vertices.empty()) continue;  // the nodes on edges decide, and invalid elements have a report
     const std::string where = Where{.face = face.shown_ref()}.prefix();
     if (turned.count > before[f].turned.count) {
       const std::string why = where + "the " + by + " has turned " + std::to_string(turned.count) + (turned.count == 1 ? " element" : " elements") +
