@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/shape_levels.h"
 #include "plane/kernel/thresholds.h"
 #include "plane/optimise/zone_moves.h"
 #include "support/infinity.h"
@@ -30,7 +29,7 @@ struct Change {
 bool collapse_best(SearchZone& zone, int v) {
   Triangulation& mesh = zone.work.mesh;
   if (!zone.star.collect(mesh, v) || has_imposed_spoke(mesh, zone.star, v)) return false;
-  const int into = best_collapse(zone.star, shape_level::flat, rounding_of::sizes,
+  const int into = best_collapse(zone.star, min_collapse_quality, rounding_of::sizes,
                                  [&](int p, int q, int r, bool) { return zone.shape(p, q, r); });
   if (into < 0) return false;
   collapse(mesh, zone.star, v, into);
