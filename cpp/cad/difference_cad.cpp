@@ -137,7 +137,7 @@ void DifferenceCad::surface(int face, unsigned want, std::span<const Vec2> uv, s
   std::vector<Vec2> inside;
   std::vector<std::optional<Vec2>> closest(uv.size());
   for (std::size_t i = 0; i < uv.size(); ++i) {
-    closest[i] = domain->places.closest_from_outside(uv[i], *this);
+    if (!domain->known->contains(uv[i])) closest[i] = domain->places.closest_from_outside(uv[i], *this);
     if (!closest[i]) inside.push_back(uv[i]);
   }
   if (inside.size() == uv.size()) return surface_inside(face, want, uv, out);
@@ -366,6 +366,8 @@ CurveJet DifferenceCad::curve(int face, int ic, unsigned want, double t) {
   const unsigned given = want & curve_gives_, missing = want & ~curve_gives_;
   CurveJet jet;
   if (given != 0) jet = source_->curve(face, ic, given, t);
+  if ((given & want_position) != 0)
+    if (const Domain* const domain = domain_of(face); domain != nullptr) domain->known->add(jet.c);
   if (missing == 0) return jet;
   const Interval interval = source_->curve_interval(face, ic);
   if (!(std::isfinite(interval.a) && std::isfinite(interval.b) && interval.a < interval.b))

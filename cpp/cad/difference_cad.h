@@ -2,8 +2,12 @@
 // Finite differences for derivatives that a host does not give.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <set>
+#include <shared_mutex>
 #include <utility>
 #include <vector>
 
@@ -47,10 +51,27 @@ class DifferenceCad : public Cad {
   struct Box {
     Vec2 low, high;
   };
+  /// Places that curves have returned: they lie on the boundary, without a search. Safe from several threads.
+  class BoundaryPlaces {
+   public:
+    void add(const Vec2& uv) {
+      const std::unique_lock lock(mutex_);
+      places_.insert({uv.x(), uv.y()});
+    }
+    [[nodiscard]] bool contains(const Vec2& uv) const {
+      const std::shared_lock lock(mutex_);
+      return places_.contains({uv.x(), uv.y()});
+    }
+
+   private:
+    mutable std::shared_mutex mutex_;
+    std::set<std::array<double, 2>> places_;
+  };
   /// `steps` proves quickly that steps stay inside, `places` decides by the curves.
   struct Domain {
     ParameterDomain steps;
     TrimmedDomain places;
+    std::unique_ptr<BoundaryPlaces> known = std::make_unique<BoundaryPlaces>();
   };
   /// Plan of the differences for the missing bits: derivatives of order `want`, from order `from`.
   struct Task {

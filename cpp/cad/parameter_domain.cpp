@@ -229,8 +229,9 @@ TrimmedDomain::Beside TrimmedDomain::beside(std::int32_t edge, const Vec2& uv, C
     const CurveJet jet = cad.curve(ref_, piece.ic, want_position | want_first, t);
     const Vec2 q = (jet.c - from).cwiseQuotient(size_), d = jet.ct.cwiseQuotient(size_);
     const double off = along(p - q), speed = along(d);
-    beside.curve = across(q);
-    if (std::abs(off) <= on_curve * length) break;
+    // The tangent differs from the curve by less than the way along it.
+    beside.curve = speed > 0 ? across(q) + off * across(d) / speed : across(q);
+    if (std::abs(off) <= on_curve * length || (speed > 0 && std::abs(beside.place - beside.curve) > std::abs(off))) break;
     (off > 0 ? low : high) = t;
     const double to = t + off / speed;
     const double next = speed > 0 && to > low && to < high ? to : (low + high) / 2;

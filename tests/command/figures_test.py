@@ -171,7 +171,7 @@ class Figures(unittest.TestCase):
             atoms = file.readlines()[:120]
         with open(self.path("fragment.xyzr"), "w") as file:
             file.writelines(atoms)
-        mesh, figures = self.mesh("mesh", self.path("fragment.xyzr"), "--surface", "vws", "--size", "0.29")
+        mesh, figures = self.mesh("mesh", self.path("fragment.xyzr"), "--surface", "vws", "--size", "0.245")
         self.assertEqual(figures["open_edges"], 0)
         self.assertAlmostEqual(len(mesh.triangles) / len(atoms) / (309004 / 637), 1, delta=0.1)
         self.assertEqual(2 * len(mesh.vertices) - len(mesh.triangles), 0)  # one handle
