@@ -133,7 +133,7 @@ class Matcher {
           break;
         }
     if (pair.curves.empty()) throw InvalidPeriodicity(where, "the face is periodic with itself, and the map carries none of its curves onto another one or along itself");
-    if (!turned_curves(face, *given.map).empty()) note_itself(face);
+    if (!turned_curves(face, *given.map).empty()) note_itself(face, pair.curves);
     pairs_.push_back(std::move(pair));
   }
 
@@ -160,16 +160,25 @@ class Matcher {
     return images;
   }
 
-  void note_itself(int face) {
-    remarks_.push_back(Where{.face = ref(face)}.prefix() +
-                       "the map of a periodicity carries the face onto itself: its curves are periodic, its own mesh only if the geometry has its sectors");
+  void note_itself(int face, const std::map<int, CurveImage>& images) {
+    const std::vector<int>& all = model_.topology.curve_of[face];
+    std::string curves;
+    std::size_t listed = 0;
+    for (const auto& [curve, image] : images) {
+      curves += listed == 0 ? "" : listed + 1 == images.size() ? " and " : ", ";
+      curves += std::to_string(std::find(all.begin(), all.end(), curve) - all.begin() + 1);
+      ++listed;
+    }
+    remarks_.push_back(Where{.face = ref(face)}.prefix() + "the map of a periodicity carries the face onto itself: nodes on its " +
+                       (images.size() == 1 ? "curve " : "curves ") + curves +
+                       " have pairs; nodes inside have none unless the geometry has the sectors of the face");
   }
 
   // A map that carries a face onto itself makes its curves periodic.
   std::size_t add_turned(int face, const Isometry& map) {
     FacePair itself{-1, -1, map, turned_curves(face, map)};
     if (itself.curves.empty()) return 0;
-    note_itself(face);
+    note_itself(face, itself.curves);
     pairs_.push_back(std::move(itself));
     return 1;
   }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "geometry/discrete/triangulation.h"
+#include "mesh/periodic_masters.h"
 #include "model/nodes_by_place.h"
 #include "support/error.h"
 #include "support/infinity.h"
@@ -304,7 +305,7 @@ class PairsOfLines {
     for (const auto& [w, v] : link.nodes) image.emplace(v, w);
     for (const auto& [v, w] : image) {
       const std::int32_t from = corner_ref_[index(v)], to = corner_ref_[index(w)];
-      if (from != 0 && to != 0 && from != to && corners_.insert(to).second)
+      if (from != 0 && to != 0 && from != to && get_master(corners_, to, from))
         found_.push_back({.dimension = 0, .master = from, .slave = to, .map = link.map, .nodes = {{w, v}}});
     }
     for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
@@ -321,11 +322,18 @@ class PairsOfLines {
         all = there != line_of_.end() && there->second != l && (k == 1 || made.slave == static_cast<int>(there->second) + 1);
         if (all) made.slave = static_cast<int>(there->second) + 1;
       }
-      if (!all || made.slave == 0 || !lines_.insert(made.slave).second) continue;
+      if (!all || made.slave == 0 || !get_master(lines_, made.slave, made.master)) continue;
       std::ranges::sort(made.nodes);
       made.nodes.erase(std::unique(made.nodes.begin(), made.nodes.end()), made.nodes.end());
       found_.push_back(std::move(made));
     }
+  }
+
+  // Returns whether the slave gets the master: it has none, and the chain of masters above does not return to it.
+  static bool get_master(std::map<int, int>& masters, int slave, int master) {
+    int above = master;
+    for (auto next = masters.find(above); next != masters.end(); next = masters.find(above)) above = next->second;
+    return above != slave && masters.emplace(slave, master).second;
   }
 
   void add_itself(std::size_t first) {
@@ -362,7 +370,8 @@ class PairsOfLines {
   const RefinedMesh& mesh_;
   const std::vector<std::int32_t>& corner_ref_;
   std::unordered_map<std::uint64_t, std::size_t> line_of_;  // by edge; never iterated
-  std::set<int> lines_, corners_, themselves_;
+  std::map<int, int> lines_, corners_;  // masters by slave
+  std::set<int> themselves_;
   std::vector<PeriodicLink> found_;
 };
 
@@ -434,6 +443,7 @@ FlatMesh flat_mesh(const DiscreteSurface& surface, const RefinedMesh& mesh) {
   if (mesh.periodic.empty()) return flat;
   flat.periodic = PairsOfLines(mesh, flat.vertex_refs).run();
   std::ranges::copy_if(mesh.periodic, std::back_inserter(flat.periodic), [](const PeriodicLink& link) { return link.dimension == 2; });
+  add_periodic_masters(flat);
   return flat;
 }
 

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "mesh/elements/cell_quality.h"
+#include "mesh/periodic_masters.h"
 #include "mesh/quality.h"
 #include "support/error.h"
 
@@ -264,21 +265,6 @@ void add_shapes(FlatMesh& flat) {
   for (MeshField* field : {&shape, &scaled, &least}) flat.fields.push_back(std::move(*field));
 }
 
-// A field that gives each vertex the first vertex (from 0) of its periodic class.
-void add_periodic(FlatMesh& flat) {
-  if (flat.periodic.empty()) return;
-  MeshField master{.name = "periodic_master", .on_vertices = true, .components = 1, .values = {}, .edge_values = {}};
-  for (std::size_t v = 0; v < flat.vertices.size(); ++v) master.values.push_back(static_cast<double>(v));
-  std::vector<char> known(flat.vertices.size(), 0);
-  for (const int dimension : {0, 1, 2})  // corners and curves know the first of their class
-    for (const PeriodicLink& link : flat.periodic)
-      for (const auto& [slave, of] : link.nodes)
-        if (link.dimension == dimension && known[slave] == 0) master.values[slave] = of, known[slave] = 1;
-  const std::vector<double> direct = master.values;
-  for (double& value : master.values) value = direct[static_cast<std::size_t>(value)];  // a master may have a master on its own curve
-  flat.fields.push_back(std::move(master));
-}
-
 void add_fields(FlatMesh& flat, const std::vector<double>& vertex_size, const FlatSources& sources) {
   MeshField size{.name = "size", .on_vertices = true, .components = 1, .values = {}, .edge_values = {}};
   size.values.reserve(sources.vertex.size());
@@ -295,7 +281,7 @@ void add_fields(FlatMesh& flat, const std::vector<double>& vertex_size, const Fl
   }
   for (MeshField* const field : {&size, &q1, &q2}) flat.fields.push_back(std::move(*field));
   if (!flat.cells.empty()) add_shapes(flat);
-  add_periodic(flat);
+  add_periodic_masters(flat);
 }
 
 // A side of a triangle of the flat mesh: edge of the surface mesh, vertices of the flat one.

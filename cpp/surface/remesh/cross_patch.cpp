@@ -2,7 +2,9 @@
 #include "surface/remesh/cross_patch.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -39,36 +41,66 @@ struct FixedTriangles {
   std::vector<std::int32_t> vertices, ends;  ///< all, and the ends of curves
 };
 
+// Both lists are ascending.
 template <typename T>
-std::vector<T> joined(std::vector<T> list, const std::vector<T>& more) {
-  list.insert(list.end(), more.begin(), more.end());
+std::vector<T> joined(const std::vector<T>& list, const std::vector<T>& more) {
+  std::vector<T> all;
+  all.reserve(list.size() + more.size());
+  std::set_union(list.begin(), list.end(), more.begin(), more.end(), std::back_inserter(all));
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+template <typename T>
+void sort_uniquely(std::vector<T>& list) {
   std::ranges::sort(list);
   list.erase(std::unique(list.begin(), list.end()), list.end());
-  return list;
+}
+
+// Edges are distributed to their first vertices and sorted there, in linear time.
+std::vector<MeshEdge> sorted_uniquely(const std::vector<MeshEdge>& edges, std::size_t vertices) {
+  std::vector<std::size_t> next(vertices + 1, 0);
+  for (const MeshEdge& e : edges) ++next[static_cast<std::size_t>(e[0]) + 1];
+  for (std::size_t v = 0; v < vertices; ++v) next[v + 1] += next[v];
+  std::vector<MeshEdge> sorted(edges.size());
+  for (const MeshEdge& e : edges) sorted[next[e[0]]++] = e;
+  auto first = sorted.begin();
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(next[v]);
+    std::sort(first, last);
+    first = last;
+  }
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  return sorted;
 }
 
 FixedTriangles fixed_triangles(const SurfaceMesh& mesh, const FixedParts& fixed) {
   FixedTriangles found;
+  std::vector<char> of_curve(mesh.vertices.size(), 0), stays(mesh.vertices.size(), 0);
   for (std::size_t c = 0; c < fixed.curves.size(); ++c) {
     const std::vector<std::int32_t>& chain = mesh.curves[c].vertices;
     if (fixed.curves[c] == 0 || chain.size() < 2) continue;
     for (std::size_t k = 1; k < chain.size(); ++k) found.border.push_back(mesh_edge(chain[k - 1], chain[k]));
-    found.vertices.insert(found.vertices.end(), chain.begin(), chain.end());
+    for (const std::int32_t v : chain) of_curve[v] = stays[v] = 1;
     found.ends.insert(found.ends.end(), {chain.front(), chain.back()});
   }
-  found.border = joined(std::move(found.border), {});
+  sort_uniquely(found.border);
+  sort_uniquely(found.ends);
+  std::vector<MeshEdge> inner;
   for (std::size_t f = 0; f < fixed.faces.size(); ++f) {
     if (fixed.faces[f] == 0) continue;
     const FaceMesh& face = mesh.faces[f];
     for (const auto& t : face.triangles)
       for (std::size_t i = 0; i < 3; ++i) {
         const MeshEdge edge = mesh_edge(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]);
-        if (!std::ranges::binary_search(found.border, edge)) found.inner.push_back(edge);
-        found.vertices.push_back(face.vertex[t[i]]);
+        const bool of_curves = of_curve[edge[0]] != 0 && of_curve[edge[1]] != 0;
+        if (!of_curves || !std::ranges::binary_search(found.border, edge)) inner.push_back(edge);
+        stays[face.vertex[t[i]]] = 1;
       }
   }
-  found.inner = joined(std::move(found.inner), {});
-  found.vertices = joined(std::move(found.vertices), {});
+  found.inner = sorted_uniquely(inner, mesh.vertices.size());
+  for (std::size_t v = 0; v < stays.size(); ++v)
+    if (stays[v] != 0) found.vertices.push_back(static_cast<std::int32_t>(v));
   return found;
 }
 
@@ -83,7 +115,7 @@ std::unique_ptr<RemeshingFrame> frame_of(const CurveModel& model, std::span<cons
   const double angle = options.sharp_angle;
   frame.sharp = find_sharp_edges(mesh, frame.jets, angle);
   const FixedTriangles stays = fixed_triangles(mesh, fixed);
-  frame.sharp = joined(std::move(frame.sharp), stays.border);
+  frame.sharp = joined(frame.sharp, stays.border);
   const PlaneMetrics metrics = by_direction ? metrics_of(result, frame.jets) : PlaneMetrics{};
   const auto link = [&] {
     frame.charts = std::make_shared<Charts>(mesh, frame.sharp, result.vertex_size, metrics, monitor);
@@ -96,10 +128,10 @@ std::unique_ptr<RemeshingFrame> frame_of(const CurveModel& model, std::span<cons
   }
   const Topology* known = mesh.curves.size() == model.topology.curves.size() ? &model.topology : nullptr;
   frame.corners = find_corners(mesh, frame.jets, *frame.charts, frame.sharp, known, model.supports, angle);
-  frame.corners = joined(std::move(frame.corners), stays.ends);
+  frame.corners = joined(frame.corners, stays.ends);
   frame.lines = find_lines(mesh, frame.sharp, frame.corners);
-  frame.corners = joined(std::move(frame.corners), stays.vertices);
-  frame.sharp = joined(std::move(frame.sharp), stays.inner);
+  frame.corners = joined(frame.corners, stays.vertices);
+  frame.sharp = joined(frame.sharp, stays.inner);
   if (elements) frame.elements = [&](const SurfaceMesh& before, CrossPatchResult& freed) { elements(before, frame, freed); };
   frame.geometry = [&, curves](const SharpLine& line) {
     return std::make_unique<LinePlaces>(line, mesh, model, curves, *frame.charts, model.cad);

@@ -30,6 +30,9 @@ class Reassembler {
   SizedMesh run(const std::vector<SharpLine>& lines, std::span<const WorkedLine> worked,
                 const std::vector<std::int32_t>& corners) {
     number_vertices(corners);
+    on_line_.assign(free_.vertices(), 0);
+    for (const SharpLine& line : lines)
+      for (const std::int32_t v : line.vertices) on_line_[v] = 1;
     place_cells();
     result_.feet.resize(before_.faces.size());
     result_.mid_feet.resize(before_.faces.size());
@@ -99,11 +102,14 @@ class Reassembler {
     }
   }
 
+  // Edges inside of faces that stay have kept vertices too, but are no edges of lines.
+  [[nodiscard]] bool may_end_edges_of_lines(std::int32_t v) const { return on_line_[v] != 0 && !free_.is_free(v); }
+
   void deal_out(std::size_t c, const PlacedCell& placed) {
     const SpaceCell& cell = in_space_.cells[c];
     for (int i = 0; i < placed.count; ++i) {
       const std::int32_t v = cell[i], w = cell[(i + 1) % placed.count];
-      if (free_.is_free(v) || free_.is_free(w)) continue;
+      if (!may_end_edges_of_lines(v) || !may_end_edges_of_lines(w)) continue;
       Beside& beside = beside_[mesh_edge(v, w)];
       beside.faces.push_back(placed.face);
       beside.node = nodes_of(c)[i];
@@ -124,7 +130,7 @@ class Reassembler {
       return;
     }
     std::vector<std::int32_t>& feet = result_.feet[f];
-    part_sheets(of_face_[f], [&](std::int32_t v) { return !free_.is_free(v); });
+    part_sheets(of_face_[f], [&](std::int32_t v) { return may_end_edges_of_lines(v); });
     std::vector<PlacedCorner>& locals = locals_[f];
     for (const PlacedCell& c : of_face_[f]) locals.insert(locals.end(), c.corners.begin(), c.corners.begin() + c.count);
     sort_uniquely(locals);
@@ -308,6 +314,7 @@ class Reassembler {
   SizedMesh result_;
   std::vector<std::int32_t> number_, old_vertex_;  // of vertices that are there, one way and the other
   std::vector<std::int32_t> node_number_;          // for vertices that are nodes on edges
+  std::vector<char> on_line_;                      // by vertex of the cells
   std::vector<std::vector<PlacedCell>> of_face_;
   std::vector<std::vector<PlacedCorner>> locals_;  // by face, ascending
   std::map<MeshEdge, Beside> beside_;

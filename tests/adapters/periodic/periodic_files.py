@@ -66,6 +66,23 @@ class Mesh:
                 parent[max(a, b)] = min(a, b)
         return {n: find(n) for n in self.points}
 
+    def without_one_master(self):
+        """Returns the slaves (dimension, number) that have several masters or whose chain of masters returns to them."""
+        masters = {}
+        for dimension, slave, master, *_ in self.pairs:
+            if slave != master:
+                masters.setdefault((dimension, slave), set()).add((dimension, master))
+
+        def returns(slave):
+            above = min(masters[slave])
+            for _ in masters:
+                if above not in masters or above == slave:
+                    break
+                above = min(masters[above])
+            return above == slave
+
+        return [slave for slave, all in masters.items() if len(all) > 1 or returns(slave)]
+
     def same_cells(self, slave, master, nodes):
         """The pairs of nodes carry the elements of a master onto the elements of its slave."""
         to_slave = {m: s for s, m in nodes}
