@@ -20,7 +20,7 @@ void Raiser::repair() {
   }
   if (bad.empty()) return;
   list_neighbours();
-  const std::size_t first = bad.size();
+  const std::vector<std::size_t> first = bad;
   for (int round = 0; round < work_bounds::rounds && !bad.empty(); ++round) {
     for (const std::size_t k : bad) {
       monitor_.checkpoint();
@@ -29,11 +29,24 @@ void Raiser::repair() {
       if (round == 0) follow_second_order(k);
       move_edges(k);
     }
-    std::erase_if(bad, [&](std::size_t k) { return score(elements_[k]) >= least_jacobian; });
+    bad = invalid_about(bad);
   }
-  out_.repaired = static_cast<std::int64_t>(first - bad.size());
+  out_.repaired = std::count_if(first.begin(), first.end(), [&](std::size_t k) { return score(elements_[k]) >= least_jacobian; });
   if (lowers_) lower(bad);
   invalid_ = bad;
+}
+
+// A moved edge can mend one of its elements and break the other.
+std::vector<std::size_t> Raiser::invalid_about(const std::vector<std::size_t>& moved) const {
+  std::vector<std::size_t> all = moved;
+  for (const std::size_t k : moved) {
+    const std::vector<std::size_t> beside = neighbours(k);
+    all.insert(all.end(), beside.begin(), beside.end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  std::erase_if(all, [&](std::size_t k) { return score(elements_[k]) >= least_jacobian; });
+  return all;
 }
 
 void Raiser::list_neighbours() {
