@@ -110,6 +110,10 @@ double Raiser::worst(const std::vector<std::size_t>& all) const {
   return least;
 }
 
+std::ptrdiff_t Raiser::invalid_among(const std::vector<std::size_t>& all) const {
+  return std::count_if(all.begin(), all.end(), [&](std::size_t k) { return score(elements_[k]) < least_jacobian; });
+}
+
 Raiser::Saved Raiser::save(const std::vector<std::size_t>& all) const {
   Saved saved;
   for (const std::size_t k : all)
@@ -209,6 +213,7 @@ void Raiser::follow_second_order(std::size_t k) {
     const std::vector<std::size_t>& beside = around_.at(key);
     const Saved saved = save(beside);
     const double before = worst(beside);
+    const auto invalid = invalid_among(beside);
     const Vec3 &p = mesh_.vertices[key[0]], &q = mesh_.vertices[key[1]], &m = mesh_.mid_vertices[face.mid_vertex[mid]];
     Wanted wanted;
     for (std::size_t n = 1; n < p_; ++n) {
@@ -220,7 +225,7 @@ void Raiser::follow_second_order(std::size_t k) {
     }
     place(static_cast<std::size_t>(e.face), wanted);
     for (const std::size_t n : beside) settle(elements_[n]);
-    if (!(worst(beside) > before)) restore(saved);
+    if (!(worst(beside) > before) || invalid_among(beside) > invalid) restore(saved);
   }
 }
 
@@ -235,11 +240,12 @@ void Raiser::move_edges(std::size_t k) {
     for (std::size_t m = 0; m + 1 < p_; ++m) {
       const Saved saved = save(beside);
       const double before = worst(beside);
+      const auto invalid = invalid_among(beside);
       search(edge.first + static_cast<std::int32_t>(m), e, [&] {
         for (const std::size_t n : beside) settle(elements_[n]);
         return worst(beside);
       });
-      if (!(worst(beside) > before)) restore(saved);
+      if (!(worst(beside) > before) || invalid_among(beside) > invalid) restore(saved);
     }
   }
 }
