@@ -55,6 +55,9 @@ def test_points_are_projected_to_the_geometry_of_a_mesh():
     assert session.project(x, dimension=0).parameters.shape == (200, 0)
     with pytest.raises(carreau.CarreauError, match="77"):
         session.project(x, ref=77)
+    for dimension in (0, -1, 3):
+        with pytest.raises(carreau.CarreauError, match=f"dimension is {dimension}"):
+            session.evaluate([[0.5, 0.5]], ref=1, dimension=dimension)
 
 
 def test_places_of_space_are_embedded():
