@@ -20,7 +20,7 @@ void Raiser::repair() {
   }
   if (bad.empty()) return;
   list_neighbours();
-  const std::size_t first = bad.size();
+  const std::vector<std::size_t> first = bad;
   for (int round = 0; round < work_bounds::rounds && !bad.empty(); ++round) {
     for (const std::size_t k : bad) {
       monitor_.checkpoint();
@@ -29,11 +29,24 @@ void Raiser::repair() {
       if (round == 0) follow_second_order(k);
       move_edges(k);
     }
-    std::erase_if(bad, [&](std::size_t k) { return score(elements_[k]) >= least_jacobian; });
+    bad = invalid_about(bad);
   }
-  out_.repaired = static_cast<std::int64_t>(first - bad.size());
+  out_.repaired = std::count_if(first.begin(), first.end(), [&](std::size_t k) { return score(elements_[k]) >= least_jacobian; });
   if (lowers_) lower(bad);
   invalid_ = bad;
+}
+
+// A moved edge can mend one of its elements and break the other.
+std::vector<std::size_t> Raiser::invalid_about(const std::vector<std::size_t>& moved) const {
+  std::vector<std::size_t> all = moved;
+  for (const std::size_t k : moved) {
+    const std::vector<std::size_t> beside = neighbours(k);
+    all.insert(all.end(), beside.begin(), beside.end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  std::erase_if(all, [&](std::size_t k) { return score(elements_[k]) >= least_jacobian; });
+  return all;
 }
 
 void Raiser::list_neighbours() {
@@ -95,6 +108,10 @@ double Raiser::worst(const std::vector<std::size_t>& all) const {
   double least = good_jacobian;
   for (const std::size_t k : all) least = std::min(least, score(elements_[k]));
   return least;
+}
+
+std::ptrdiff_t Raiser::invalid_among(const std::vector<std::size_t>& all) const {
+  return std::count_if(all.begin(), all.end(), [&](std::size_t k) { return score(elements_[k]) < least_jacobian; });
 }
 
 Raiser::Saved Raiser::save(const std::vector<std::size_t>& all) const {
@@ -196,6 +213,7 @@ void Raiser::follow_second_order(std::size_t k) {
     const std::vector<std::size_t>& beside = around_.at(key);
     const Saved saved = save(beside);
     const double before = worst(beside);
+    const auto invalid = invalid_among(beside);
     const Vec3 &p = mesh_.vertices[key[0]], &q = mesh_.vertices[key[1]], &m = mesh_.mid_vertices[face.mid_vertex[mid]];
     Wanted wanted;
     for (std::size_t n = 1; n < p_; ++n) {
@@ -207,7 +225,7 @@ void Raiser::follow_second_order(std::size_t k) {
     }
     place(static_cast<std::size_t>(e.face), wanted);
     for (const std::size_t n : beside) settle(elements_[n]);
-    if (!(worst(beside) > before)) restore(saved);
+    if (!(worst(beside) > before) || invalid_among(beside) > invalid) restore(saved);
   }
 }
 
@@ -222,11 +240,12 @@ void Raiser::move_edges(std::size_t k) {
     for (std::size_t m = 0; m + 1 < p_; ++m) {
       const Saved saved = save(beside);
       const double before = worst(beside);
+      const auto invalid = invalid_among(beside);
       search(edge.first + static_cast<std::int32_t>(m), e, [&] {
         for (const std::size_t n : beside) settle(elements_[n]);
         return worst(beside);
       });
-      if (!(worst(beside) > before)) restore(saved);
+      if (!(worst(beside) > before) || invalid_among(beside) > invalid) restore(saved);
     }
   }
 }

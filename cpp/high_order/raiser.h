@@ -75,6 +75,8 @@ class Raiser {
   // Repairs
   void repair();
   void list_neighbours();
+  [[nodiscard]] std::ptrdiff_t invalid_among(const std::vector<std::size_t>& all) const;
+  [[nodiscard]] std::vector<std::size_t> invalid_about(const std::vector<std::size_t>& moved) const;
   [[nodiscard]] std::array<Vec2, 2> box(const Element& e) const;
 
   /// Moves one node in (u, v) to the best value of `judge`; the host may fail beside its domain.

@@ -142,6 +142,12 @@ class Mesh(unittest.TestCase):
         values = figures(self.mesh("sphere.step", "--angle", "1", "--min", "0.2"))
         self.assertAlmostEqual(float(values["edge length"].split()[-1]) / 0.2, 1, delta=0.06)
 
+    def test_elements_of_order_three_and_four_are_valid(self):
+        for name, elements in (("bracket", ("p3", "q3")), ("pinhole", ("p3", "q3")), ("thin_bore", ("p3",)), ("waist", ("p3", "q3", "p4"))):
+            for element in elements:
+                path = self.mesh(name + ".step", "--size", "20%", "--element", element, "-q", output="curved.msh")
+                self.assertEqual(json.loads(run("check", path, "--json").stdout)["elements"]["invalid"], 0, (name, element))
+
     def test_an_independent_mesh_crosses_the_seam_of_a_sphere_and_stays_sound(self):
         values = figures(self.mesh("sphere.step", "--size", "0.2", "--independent"), "--closed")
         self.assertEqual((values["status"], values["defects"], values["faces"]), (0, "none", "1"))

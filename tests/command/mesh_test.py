@@ -512,6 +512,8 @@ class Sizes(Folder):
         with open(self.path("x.msh")) as file:
             self.assertRegex(file.read(), r"\n2 1 10 \d+\n")
         self.refused(first, "-o", "x.msh", "--centre-nodes", sentence="--centre-nodes requires --element p2, q2.0 or q2.1")
+        self.refused(first, "-o", "x.msh", "--nodes", "gauss-lobatto", sentence="--nodes gauss-lobatto requires")
+        self.refused(first, "-o", "x.stl", "--association", sentence="--association requires an output .msh")
         self.refused(first, "-o", "x.stl", "--element", "p3", sentence=".msh, .msh2, .vtu and .mesh (of MFEM) can")
 
     def test_a_gradation_lets_sizes_grow_gently(self):

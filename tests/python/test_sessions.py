@@ -2,6 +2,7 @@
 """Parameters and files of sessions, charts of atlases, questions to CAD files, domains."""
 import math
 import os
+import subprocess
 import threading
 
 import numpy as np
@@ -55,6 +56,9 @@ def test_points_are_projected_to_the_geometry_of_a_mesh():
     assert session.project(x, dimension=0).parameters.shape == (200, 0)
     with pytest.raises(carreau.CarreauError, match="77"):
         session.project(x, ref=77)
+    for dimension in (0, -1, 3):
+        with pytest.raises(carreau.CarreauError, match=f"dimension is {dimension}"):
+            session.evaluate([[0.5, 0.5]], ref=1, dimension=dimension)
 
 
 def test_places_of_space_are_embedded():
@@ -143,6 +147,18 @@ def test_vertices_know_the_entities_that_they_lie_on():
         for end in (0, 1):
             assert np.allclose(mesh.session.evaluate(t[k, end], ref, dimension=1).xyz, mesh.vertices[mesh.edges[k, end]], atol=1e-12)
     assert set(faces) == {1} and set(ics) <= {1, 2, 3, 4}
+
+
+@needs("CARREAU_MAKE_SHAPES")
+def test_vertices_of_a_mesh_across_patches_lie_on_their_curves(tmp_path):
+    subprocess.run([os.environ["CARREAU_MAKE_SHAPES"], str(tmp_path)], check=True)
+    for size in ("8%", "12%"):
+        mesh = carreau.mesh(tmp_path / "bracket.step", size=size, independent=True)
+        dimensions, refs = mesh.vertex_entities()
+        assert (dimensions == 1).sum() > 60
+        for ref in set(refs[dimensions == 1].tolist()):
+            on = mesh.vertices[(dimensions == 1) & (refs == ref)]
+            assert mesh.session.project(on, 1, ref).distances.max() < 1e-10, ref
 
 
 @pytest.mark.parametrize("name", ["grid/volcano.txt", "molecule/caffeine.xyzr", "triangles/fading_line.off", "plane/plate.poly"])

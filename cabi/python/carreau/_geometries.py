@@ -274,10 +274,11 @@ class Geometries:
 
     def evaluate(self, parameters: ArrayLike, ref: int, order: int = 0, dimension: int = 2) -> Evaluated:
         """Evaluates a face (dimension 2) at (u, v), (n, 2), or a curve (1) at t, (n,), by its reference."""
-        places = doubles(np.reshape(np.asarray(parameters, dtype=float), (-1, dimension)), "parameters", None, dimension)
+        width = dimension if dimension in (1, 2) else 1  # the library rejects other dimensions
+        places = doubles(np.reshape(np.asarray(parameters, dtype=float), (-1, width)), "parameters", None, width)
         n = len(places)
         xyz = np.empty((n, 3))
-        first = np.empty((n, dimension, 3)) if order > 0 else None
+        first = np.empty((n, width, 3)) if order > 0 else None
         second = np.empty((n, 3 if dimension == 2 else 1, 3)) if order > 1 else None
         self._call(lib().evaluate, dimension, ref, n, places, order, xyz, first, second)
         return Evaluated(xyz, first, second)

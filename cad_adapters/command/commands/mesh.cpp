@@ -84,6 +84,10 @@ void refuse_elements(carreau_session* session, const MeshOptions& options) {
   for (const std::string& path : outputs)
     if (options.order > 0 && !is_one_of(suffix_of(path), {".msh", ".msh2", ".vtu", ".mesh", ".html"}))
       throw Failure("'" + path + "' cannot hold elements of order " + std::to_string(options.order) + ": .msh, .msh2, .vtu and .mesh (of MFEM) can.");
+  if (options.association && std::none_of(outputs.begin(), outputs.end(), [](const std::string& path) {
+        return is_one_of(suffix_of(path), {".msh", ".msh2", ".mesh", ".meshb", ".vtu"});
+      }))
+    throw Failure("--association requires an output .msh, .msh2, .mesh, .meshb or .vtu.");
   const char* element = nullptr;
   require(session, carreau_get_text(session, "element", &element));
   const std::string asked = element;
@@ -342,7 +346,10 @@ void choose_order(MeshOptions& options) {
     options.order = 2;
     return;
   }
-  if (asked.size() < 2 || (asked[1] != '3' && asked[1] != '4')) return;
+  if (asked.size() < 2 || (asked[1] != '3' && asked[1] != '4')) {
+    if (options.nodes != "equidistant") throw Failure("--nodes " + options.nodes + " requires --element p3, p4, q3, q3.1, q4 or q4.1.");
+    return;
+  }
   if (options.volume.is_volume || options.adapt.is_adapt || options.parts)
     throw Failure("Elements " + asked + " are made by `carreau mesh` and `carreau plane` without --parts.");
   options.order = asked[1] - '0';
