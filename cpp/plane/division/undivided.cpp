@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "plane/kernel/boundary.h"
-#include "plane/kernel/shapes.h"
-#include "plane/kernel/thresholds.h"
 #include "plane/optimise/delaunay_swaps.h"
 #include "plane/optimise/local_search.h"
 #include "plane/optimise/optimise.h"
@@ -44,25 +42,11 @@ PlaneMesh to_mesh(const PlaneDomain& domain, const Triangulation& triangulation,
 
 namespace {
 
-// In the frame a strip is a few fans. Their triangles are longer than edges may be, and lower than a vertex has room.
-bool has_fans(const Triangulation& mesh) {
-  std::vector<int> slivers(mesh.vertices.size(), 0);
-  for (const Triangle& T : mesh.triangles) {
-    if (T.v[0] < 0) continue;
-    const Lengths sides{mesh.squared_length(T.v[1], T.v[2]), mesh.squared_length(T.v[2], T.v[0]), mesh.squared_length(T.v[0], T.v[1])};
-    const double longest2 = std::max({sides.a, sides.b, sides.c});
-    if (!(longest2 > long_edge2) || sides.area2() > 4 * sliver_height2 * longest2) continue;
-    for (const std::int32_t v : T.v)
-      if (++slivers[v] > most_slivers) return true;
-  }
-  return false;
-}
-
 void place_points(PlaneWork& work, const PlaneDomain& domain, const Frame& frame, const PlaneMesherOptions& options) {
   Placement placement(work, options.max_triangles);
   placement.resting = options.resting;
   // No later pass swaps edges of squares.
-  if (options.squares && has_fans(work.mesh)) swap_to_delaunay(work);
+  if (options.squares && has_leaning_strips(work)) swap_to_delaunay(work);
   surround_degenerate_sides(placement, domain);
   work.fixed = static_cast<int>(work.mesh.vertices.size());
   if (options.squares) place_squares(placement);

@@ -231,10 +231,11 @@ inline constexpr int turns_a_step = 3;
 inline constexpr double min_turn2 = 0.12;
 
 // Squares (placement/squares, placement/cross_field)
-/// Slivers at one vertex of the boundary's triangulation, and their squared height over the longest edge, units. If a vertex has more,
-/// a part of the domain is a strip, and the triangulation becomes Delaunay in the metric first. [Quadrilaterals.ARibbonHasNoLongOnes]
-inline constexpr int most_slivers = 6;
-inline constexpr double sliver_height2 = 0.0625;
+/// Squared height of a triangle of the boundary's triangulation over its longest edge, and squared length of an edge, units. If the
+/// metric's Delaunay criterion swaps a longer edge of a lower triangle, a part of the domain is a strip, and the whole becomes
+/// Delaunay in the metric first. Diagonals of unit squares are not longer.
+/// [Quadrilaterals.ARibbonHasNoLongOnes, ALeaningRibbonHasNoLongOnes]
+inline constexpr double sliver_height2 = 0.0625, leaning_edge2 = 2;
 /// Lengths of the edge, at most of one. Least height over an imposed edge.
 inline constexpr double square_height = 0.6;
 /// Units. Circumradius that requires one more point (half a unit square: 0.707).

@@ -2,6 +2,7 @@
 #include "plane/optimise/delaunay_swaps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "metric/field_length.h"
@@ -101,6 +102,21 @@ void shorten_long_edges(PlaneWork& work, std::vector<std::int32_t>& triangles) {
 }
 
 }  // namespace
+
+// In the frame the triangles of a strip lean, or are a few fans.
+bool has_leaning_strips(const PlaneWork& work) {
+  const Triangulation& mesh = work.mesh;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const Triangle& T = mesh.triangles[t];
+    if (T.v[0] < 0) continue;
+    const std::array<double, 3> sides{mesh.squared_length(T.v[1], T.v[2]), mesh.squared_length(T.v[2], T.v[0]), mesh.squared_length(T.v[0], T.v[1])};
+    const double longest2 = std::max({sides[0], sides[1], sides[2]});
+    if (!(longest2 > leaning_edge2) || Lengths{sides[0], sides[1], sides[2]}.area2() > 4 * sliver_height2 * longest2) continue;
+    for (int i = 0; i < 3; ++i)
+      if (sides[static_cast<std::size_t>(i)] > leaning_edge2 && wants_swap(work, t, i)) return true;
+  }
+  return false;
+}
 
 Settled swap_to_delaunay(PlaneWork& work) {
   Triangulation& mesh = work.mesh;

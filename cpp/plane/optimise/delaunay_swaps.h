@@ -11,4 +11,7 @@ namespace carreau::plane {
 /// smallest angles. In a field that bends, lengths of edges decide. Returns the settled states of the current triangles.
 Settled swap_to_delaunay(PlaneWork& work);
 
+/// Returns true if a triangle lower than a vertex has room has a long side that is not Delaunay in the metric.
+bool has_leaning_strips(const PlaneWork& work);
+
 }  // namespace carreau::plane
