@@ -48,7 +48,9 @@ void mesh_without_narrow(CompositeRun& run) {
 void even_out_sampled(CompositeRun& run) {
   const CompositeOptions& options = run.options;
   if (run.isotropic())
-    even_out_lengths(adjacent_lengths * options.gradation, run.rules, run.cad, run.result, run.monitor);
+    even_out_lengths(adjacent_lengths * options.gradation,
+                     options.size.guarantee_triangles ? geometric_limits(options.size) : GeometricLimits{}, run.rules, run.cad,
+                     run.result, run.monitor);
   else
     even_out_sizes(tolerated_gradation * options.gradation,
                    options.size.geo_guarantee ? geometric_limits(options.size) : GeometricLimits{}, run.rules, run.cad,

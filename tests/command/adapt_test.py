@@ -70,7 +70,7 @@ class Adapt(WorkFolder):
             self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
 
     def test_the_loop_around_the_profile_of_the_report(self):
-        """RR-2818 sec. 6.4 by docs/gallery/naca0012.sh: 1344, 2099, 2117, 2223 points."""
+        """RR-2818 sec. 6.4 by docs/gallery/naca0012.sh: 1344, 2099, 2117, 2223 points; docs/reference/papers.md prints ours."""
         environment = dict(os.environ, PATH=os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"])
         script = os.path.join(os.path.dirname(PAGE), "..", "gallery", "naca0012.sh")
         done = subprocess.run(["sh", script, self.folder], env=environment, capture_output=True, text=True, timeout=300)
@@ -101,6 +101,13 @@ class Adapt(WorkFolder):
             sides = {tuple(sorted((t[k], t[k - 1]))) for t in mesh.triangles for k in range(3)}
             self.assertEqual(len(mesh.vertices) - len(sides) + len(mesh.triangles), 0, "a disc with a hole")
         self.assertAlmostEqual(len(meshes[3].vertices) / 2223, 1, delta=0.05)
+        with open(os.path.join(os.path.dirname(PAGE), "..", "reference", "papers.md")) as file:
+            text = file.read()
+        for row, counts in (("points", [len(m.vertices) for m in meshes]), ("on the boundary", [len(m.edges) for m in meshes])):
+            printed = re.findall(r"(\d+) \(\d+\)", re.search(rf"\| {row} \|.*", text).group())
+            self.assertEqual(len(printed), len(counts))
+            for count, number in zip(counts, map(int, printed)):
+                self.assertAlmostEqual(count / number, 1, delta=0.005, msg=f"{row}: {counts}")
         self.assertLess(mean_error(meshes[3]), mean_error(meshes[0]) / 5)
         _, types, rows = read_sol(self.path("naca3.sol"))
         self.assertEqual((types, len(rows)), ([1], len(meshes[3].vertices)))

@@ -154,7 +154,8 @@ class Curve(unittest.TestCase):
         rows = self.curves("two.ms", "--sizes", self.write("two.h", "6 1\n" + "0.25\n" * 6), "-o", "two.mesh")
         self.assertEqual(sorted(row["edges"] for row in rows), [4, 12, 12])
         done = subprocess.run([PROGRAM, "check", "two.ms", "--json"], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(json.loads(done.stdout)["triangles"] if "triangles" in json.loads(done.stdout) else 4, 4)
+        checked = json.loads(done.stdout)  # two squares of side 1 in two triangles each
+        self.assertEqual((done.returncode, checked["triangles"], checked["faces"], checked["quality"]["area"]), (0, 4, 2, 2))
 
     def test_mistakes_have_sentences(self):
         def refused(sentence, *arguments):

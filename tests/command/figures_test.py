@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """figures_test.py CARREAU DATA: figures of the HDR on inputs of our own, with counts beside the paper's. DATA: tests/data/grid.
-docs/reference/papers.md has the figures."""
+docs/reference/papers.md prints ours."""
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -14,6 +15,7 @@ import unittest
 import mesh_files
 
 PROGRAM, DATA = sys.argv[1:3]
+PAGE = os.path.join(DATA, "..", "..", "..", "docs", "reference", "papers.md")
 
 
 WAVE = 0.345  # its area and length give the numbers of edges and triangles of fig. 1.4
@@ -31,6 +33,13 @@ def tangent(t):
 
 def angle_between(p, q):
     return abs(math.degrees(math.atan2(p[0] * q[1] - p[1] * q[0], p[0] * q[0] + p[1] * q[1])))
+
+
+def printed(figure):
+    """The numbers that the page prints as ours for a figure."""
+    with open(PAGE) as file:
+        ours = next(line for line in file if line.startswith(f"| {figure} |")).split("|")[4]
+    return [float(number.replace(" ", "")) for number in re.findall(r"\d+(?: \d{3})*(?:\.\d+)?|\.\d+", ours)]
 
 
 def signed_volume(mesh):
@@ -58,6 +67,12 @@ class Figures(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return mesh_files.read_mesh(self.path("x.mesh")), json.loads(done.stdout)["mesh"]
 
+    def is_printed(self, figure, *values):
+        """The page prints these values, to half a percent."""
+        numbers = printed(figure)
+        for value in values:
+            self.assertLess(min(abs(value / number - 1) for number in numbers), 0.005, (value, numbers))
+
     def contour(self, *options):
         """A mesh inside the contour by options, and its border from vertex to vertex."""
         mesh, _ = self.mesh("plane", self.path("contour.poly"), "--smooth", *options)
@@ -82,7 +97,7 @@ class Figures(unittest.TestCase):
             self.assertAlmostEqual(len(mesh.vertices) / vertices, 1, delta=0.05)
             self.assertAlmostEqual(len(mesh.triangles) / triangles, 1, delta=0.05)
         # Fig. 1.6 to 1.8: 8 degrees between edges and tangents, then ratios of 1.1 and 1.3 between consecutive edges.
-        shapes = []
+        shapes, ratios, largest = [], [], []
         for gradation in (0, 1.1, 1.3):
             mesh, border = self.contour("--angle", "8", "--max", "0.3", "--gradation", str(gradation), "--set", "geo_guarantee=1")
             edges = [(q[0] - p[0], q[1] - p[1]) for p, q in zip(border, border[1:] + border[:1])]
@@ -91,6 +106,8 @@ class Figures(unittest.TestCase):
             lengths = [math.hypot(*edge) for edge in edges]
             ratio = max(max(a / b, b / a) for a, b in zip(lengths, lengths[1:] + lengths[:1]))
             self.assertLess(max(angles), 8)
+            ratios.append(ratio)
+            largest.append(max(angles))
             if gradation > 0:
                 self.assertLess(ratio, gradation * 1.005)
             else:
@@ -98,6 +115,7 @@ class Figures(unittest.TestCase):
             worst = min(2 * math.sqrt(3) * area / sum(d * d for d in sides) for area, sides in map(self.triangle(mesh), mesh.triangles))
             shapes.append(worst)
         self.assertTrue(shapes[0] < shapes[1] and shapes[0] < shapes[2], shapes)
+        self.is_printed("1.6 to 1.8", max(largest), *ratios[1:])
 
     @staticmethod
     def triangle(mesh):
@@ -113,6 +131,7 @@ class Figures(unittest.TestCase):
         size = math.sqrt(columns * (rows - 1) / (9372 * math.sqrt(3) / 4))
         mesh, figures = self.mesh("mesh", os.path.join(DATA, "head.cyl"), "--smooth", "2000", "--set", f"parameter_size={size}", "--min", "0.1")
         self.assertAlmostEqual(len(mesh.triangles) / 9372, 1, delta=0.03)
+        self.is_printed("4.12", len(mesh.triangles))
         shapes = []
         for corners in mesh.triangles:
             at = [(math.atan2(y, x) * columns / (2 * math.pi), (z - low) / step) for x, y, z in (mesh.vertices[v] for v in corners)]
@@ -131,6 +150,7 @@ class Figures(unittest.TestCase):
             _, figures = self.mesh("mesh", head, "--smooth", "2000", "--continuity", "2", "--angle", "8", "--max", "5%", "--gradation", "1.3", *shape)
             counts.append(figures["triangles"])
         self.assertLess(counts[1], counts[0])
+        self.is_printed("RT-0232 25", *counts)
 
     def test_an_aircraft_uniform_and_geometric_as_figure_4_26(self):
         """The Falcon has 26 899 triangles of mean quality .995 and, by 8 degrees with gradation 1.3, 147 500 of .975."""
@@ -141,6 +161,7 @@ class Figures(unittest.TestCase):
             _, figures = self.mesh("mesh", self.path("aircraft.fmt"), "--lengths", "--join", "30", *options)
             self.assertEqual(figures["open_edges"], 0)
             self.assertGreater(figures["q2_mean"], quality)
+            self.is_printed("4.26", figures["triangles"], figures["q2_mean"])
 
     @unittest.skipUnless(shutil.which("tetgen"), "without tetgen")
     def test_tetrahedra_around_an_aircraft_as_figure_4_34(self):
@@ -162,6 +183,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         volume = json.loads(done.stdout)["volume"]
         self.assertAlmostEqual(volume["tetrahedra"] / 485000, 1, delta=0.1)
+        self.is_printed("4.34", volume["tetrahedra"])
         inside = signed_volume(mesh)
         self.assertAlmostEqual(volume["solids"][0]["volume"] / (78 * 68 * 24 - inside), 1, delta=1e-3)
 
@@ -175,6 +197,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(figures["open_edges"], 0)
         self.assertAlmostEqual(len(mesh.triangles) / len(atoms) / (309004 / 637), 1, delta=0.1)
         self.assertEqual(2 * len(mesh.vertices) - len(mesh.triangles), 0)  # one handle
+        self.is_printed("4.30", len(mesh.triangles) / len(atoms))
 
 
 if __name__ == "__main__":

@@ -23,6 +23,16 @@ bool KeptAgreement::leans(const std::array<Vec3, 3>& corners, const std::array<V
   return false;
 }
 
+double KeptAgreement::lean(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept {
+  if (least_cosine_ < 0) return 0;
+  const Vec3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  double cosine = 1;
+  for (const Vec3& normal : normals)
+    if (dot(normal, normal) > 0) cosine = std::min(cosine, dot(n, normal) / norm(n));
+  if (!(cosine > 0)) return infinity;
+  return std::sqrt(std::max(0., 1 - cosine * cosine) / (1 - least_cosine_ * least_cosine_));
+}
+
 double KeptAgreement::share(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept {
   double angles = 0, offsets = 0, middle = 0;  // angles by their sines
   for (int i = 0; i < 3; ++i) {
@@ -33,7 +43,7 @@ double KeptAgreement::share(const std::array<Vec3, 3>& corners, const std::array
     for (const double s : along_edge) offsets = std::max(offsets, std::abs(cubic_offset(s, p, q)));
     middle += p + q;
   }
-  return std::max(angles / sine_, std::max(offsets, std::abs(middle) / 18) / deviation_);
+  return std::max({angles / sine_, std::max(offsets, std::abs(middle) / 18) / deviation_, lean(corners, normals)});
 }
 
 }  // namespace carreau

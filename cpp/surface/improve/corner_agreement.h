@@ -23,7 +23,8 @@ class KeptAgreement {
  public:
   explicit KeptAgreement(const GeometricLimits& kept);
 
-  /// The largest angle or offset of a triangle as a share of the limit; up to 1 the triangle is within. Uses the cubics
+  /// The largest angle or offset of a triangle as a share of the limit; up to 1 the triangle is within; infinity: it is turned
+  /// over though its plane has a limit. Uses the cubics
   /// of its edges, and the middle of the patch that they bound: the mean of the six offsets of their control points.
   /// `normals`: of the surface at the corners, of unit length, or zero where it has none.
   [[nodiscard]] double share(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept;
@@ -33,6 +34,9 @@ class KeptAgreement {
   [[nodiscard]] bool leans(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept;
 
  private:
+  /// The sine of the largest angle of the plane with a tangent plane, as a share of the limit's; 0 if any angle is allowed.
+  [[nodiscard]] double lean(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept;
+
   double sine_, least_cosine_, deviation_;
 };
 

@@ -171,8 +171,9 @@ void even_out(Criterion criterion, const SizeRules& rules, Cad& cad, CompositeRe
 
 }  // namespace
 
-void even_out_lengths(double limit, const SizeRules& rules, Cad& cad, CompositeResult& result, Monitor& monitor) {
-  even_out(LengthRatio(limit, result), rules, cad, result, monitor);
+void even_out_lengths(double limit, const GeometricLimits& kept, const SizeRules& rules, Cad& cad, CompositeResult& result,
+                      Monitor& monitor) {
+  even_out(LengthRatio(limit, kept, result, cad, monitor), rules, cad, result, monitor);
 }
 
 void even_out_sizes(double limit, const GeometricLimits& kept, const SizeRules& rules, Cad& cad,

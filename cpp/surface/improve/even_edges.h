@@ -15,11 +15,12 @@ inline constexpr double tolerated_gradation = 1.02;
 /// faces). It moves vertices inside faces, swaps edges, and at last divides edges. Requires sizes that are the same in
 /// all directions. Vertices and edges on curves stay. A change leaves only triangles that are well-shaped or better
 /// than before. The number of edges that are too long or too short for the sizes does not rise. Most meshes stay as
-/// they are, without a call. Keeps vertex_size up to date.
+/// they are, without a call. Keeps vertex_size up to date. If `kept` has any limit, no change leaves a triangle that exceeds it.
 ///
 /// The slope of sizes may jump. Then the best mesh in the metric may have a long edge on one side of a vertex and a
 /// short edge on the other side. Gradation makes such kinks (HDR fig. 1.6).
-void even_out_lengths(double limit, const SizeRules& rules, Cad& cad, CompositeResult& result, Monitor& monitor);
+void even_out_lengths(double limit, const GeometricLimits& kept, const SizeRules& rules, Cad& cad, CompositeResult& result,
+                      Monitor& monitor);
 
 /// Improves edges inside faces whose sizes along their chords differ by more than the factor `limit` for each unit of
 /// their length, by the control spaces. Moves vertices or swaps edges on the same terms, for sizes that differ by

@@ -95,10 +95,12 @@ TEST_P(Guarantee, PlanesOfTrianglesByDirection) {
 }
 
 /// Planes lean at edges that see nothing: along lines of a saddle without normal curvature, and beside straight lines of inflection.
-AnalyticCad saddle() {
+AnalyticCad saddle_of(double half) {
   const auto at = [](Vec2 p) -> SurfaceJet { return {{p.x(), p.y(), p.x() * p.y()}, {1, 0, p.y()}, {0, 1, p.x()}, {}, {0, 0, 1}, {}}; };
-  return one_face(at, rectangle({-2, -2}, {2, 2}));
+  return one_face(at, rectangle({-half, -half}, {half, half}));
 }
+AnalyticCad saddle() { return saddle_of(2); }
+AnalyticCad small_saddle() { return saddle_of(1); }
 AnalyticCad wave() {
   const auto at = [](Vec2 p) -> SurfaceJet {
     const double s = std::sin(3 * p.x());
@@ -107,8 +109,19 @@ AnalyticCad wave() {
   return one_face(at, rectangle({-2, -2}, {2, 2}));
 }
 
+/// Waves in two directions: lengths and sizes of neighbouring edges are evened out after planes are right.
+AnalyticCad hills_over(const Vec2& low, const Vec2& high) {
+  const auto at = [](Vec2 p) -> SurfaceJet {
+    const double s = .3 * std::sin(3 * p.x()), c = .3 * std::cos(3 * p.x()), d = std::cos(2 * p.y()), e = std::sin(2 * p.y());
+    return {{p.x(), p.y(), s * d}, {1, 0, 3 * c * d}, {0, 1, -2 * s * e}, {0, 0, -9 * s * d}, {0, 0, -6 * c * e}, {0, 0, -4 * s * d}};
+  };
+  return one_face(at, rectangle(low, high));
+}
+AnalyticCad hills() { return hills_over({-2, -2}, {2, 2}); }
+AnalyticCad cut_hills() { return hills_over({0, 0}, {2, 2}); }
+
 TEST(Planes, OfTrianglesOnSaddlesAndWaves) {
-  for (const Surface& surface : {Surface{"saddle", saddle}, Surface{"wave", wave}})
+  for (const Surface& surface : {Surface{"saddle", saddle}, Surface{"small saddle", small_saddle}, Surface{"wave", wave}, Surface{"hills", hills}})
     for (const bool by_direction : {false, true})
       for (const double angle : {16.0, 8.0}) {
         const Planes run(surface, angle, by_direction, 1.3);
@@ -116,6 +129,19 @@ TEST(Planes, OfTrianglesOnSaddlesAndWaves) {
         SCOPED_TRACE(surface.name + (", " + known(planes, angle)));
         EXPECT_LE(planes.spread.max, angle);
         EXPECT_EQ(run.triangles.session->delivered().folded_triangles, 0);
+      }
+}
+
+/// Edges of curves keep their own limits and stay: planes beside long straight edges can lean more (docs/explanation/guarantees.md).
+TEST(Planes, OfTrianglesAtEdgesOfTheBoundaryCanLean) {
+  for (const bool by_direction : {false, true})
+    for (const double gradation : {0., 1.3})
+      for (const double angle : {16., 8.}) {
+        const Planes run({"cut hills", cut_hills}, angle, by_direction, gradation);
+        const Delivery& planes = run.triangles.session->delivered()[Kind::vertex_angle];
+        SCOPED_TRACE(known(planes, angle));
+        EXPECT_LE(planes.spread.max, 2.6 * angle);
+        EXPECT_GE(share_within(planes.values, angle), .99);
       }
 }
 

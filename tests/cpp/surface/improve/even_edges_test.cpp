@@ -60,7 +60,7 @@ TEST_F(PulledVertex, GoesBackUntilLengthsAreEven) {
   pull(0.5);
   ASSERT_GT(worst_ratio(result_.mesh), limit);
   const std::size_t vertices = result_.mesh.vertices.size();
-  even_out_lengths(limit, rules_, cad_, result_, monitor_);
+  even_out_lengths(limit, GeometricLimits{}, rules_, cad_, result_, monitor_);
   EXPECT_LE(worst_ratio(result_.mesh), limit);
   EXPECT_EQ(result_.mesh.vertices.size(), vertices);
   EXPECT_EQ(find_defects(result_.mesh), std::vector<std::string>{});
@@ -74,7 +74,7 @@ TEST_F(PulledVertex, StaysWhereTheLimitAllowsIt) {
   pull(0.5);
   const SurfaceMesh before = result_.mesh;
   const CallCounts calls = cad_.counts();
-  even_out_lengths(1.01 * worst_ratio(before), rules_, cad_, result_, monitor_);
+  even_out_lengths(1.01 * worst_ratio(before), GeometricLimits{}, rules_, cad_, result_, monitor_);
   EXPECT_EQ(result_.mesh.vertices, before.vertices);
   EXPECT_EQ(result_.mesh.faces[0].triangles, before.faces[0].triangles);
   EXPECT_EQ(cad_.counts(), calls);
