@@ -4,6 +4,7 @@
 import json
 import math
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -300,6 +301,19 @@ class Command(unittest.TestCase):
         self.assertIn("synonyms of effort: " + ", ".join(synonyms), done.stdout)
         for name in synonyms:
             self.assertIn("follows effort", run("params", name).stdout)
+
+    def test_the_manual_lists_the_settings_of_the_command(self):
+        root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+        with open(os.path.join(root, "docs", "man", "carreau-mesh.1")) as file:
+            section = file.read().split(".SH PARAMETERS")[1].split(".SH")[0]
+        listed = {name for line in re.findall(r"^\.B (.*)", section, re.MULTILINE) for name in re.findall(r"(\w+)=", line)}
+        with open(os.path.join(root, "cad_adapters", "command", "mesh", "mesh_parameters.cpp")) as file:
+            body = file.read().split("void set_own_choices(")[1].split("\n}")[0]
+        chosen = set(re.findall(r'\(session, "(\w+)"', body))
+        self.assertIn("CheckCloseEdges", chosen)
+        self.assertEqual(chosen - listed, set())
+        for name in listed:
+            self.assertEqual(run("params", name).returncode, 0, name)
 
     def test_help_and_version(self):
         for arguments in (["--help"], ["picture", "--help"], ["check", "--help"], ["params", "--help"], ["fields", "--help"], ["--version"]):
