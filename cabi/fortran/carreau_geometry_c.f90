@@ -133,8 +133,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_add_bezier
 
-    !> Adds the Bezier patches of a file .bpt: the number of patches, then for each m n and its control points; sides
-    !! that meet are found when a mesh is made.
+    !> Adds the Bezier patches of a file .bpt: the number of patches, then for each m n and its control points.
     function c_load_bezier(session, path) result(status) bind(c, name="carreau_load_bezier")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -301,7 +300,7 @@ module carreau_geometry_c
     end function c_triangles_measure
 
     !> Cuts triangles into four by the middles of their edges on the smooth surface while their normals differ from it
-    !! by more than `angle` degrees, at most `depth` times, and puts them into a mesh that carreau_mesh_create made.
+    !! by more than `angle` degrees, at most `depth` times.
     function c_triangles_refine(session, angle, depth, mesh) result(status) bind(c, name="carreau_triangles_refine")
       import :: c_double, c_int32_t, c_ptr
       implicit none
@@ -333,7 +332,7 @@ module carreau_geometry_c
     end function c_triangles_bounds
 
     !> Evaluates an entity of dimension 2 or 1 at n places, n x dimension. `order` is the highest derivative, 0 to 2.
-    !! out_xyz is n x 3; out_first is n x dimension x 3.
+    !! out_xyz is n x 3. out_first is n x dimension x 3.
     function c_evaluate(session, dimension, reference, n, parameters, order, xyz, first, second) result(status) &
         bind(c, name="carreau_evaluate")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
@@ -373,8 +372,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_model_embed_point
 
-    !> Embeds a polyline of n points of space, n x 3, in the faces that it lies on: the projection of its segments to
-    !! the model becomes internal curves, whose edges the mesh has.
+    !> Embeds a polyline of n points of space, n x 3, in the faces that it lies on.
     function c_model_embed_polyline(session, n, xyz, name, ref) result(status) &
         bind(c, name="carreau_model_embed_polyline")
       import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr
@@ -464,7 +462,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_mesh_refine
 
-    !> Halves edges until none is longer than sqrt(2) of the size at its ends; `sizes` are model lengths at the n
+    !> Halves edges until none is longer than sqrt(2) of the size at its ends. `sizes` are model lengths at the n
     !! vertices of the mesh; of elements of second order at the corners, which come first.
     function c_mesh_refine_sizes(session, n, sizes) result(status) bind(c, name="carreau_mesh_refine_sizes")
       import :: c_double, c_int32_t, c_int64_t, c_ptr

@@ -63,8 +63,8 @@ CARREAU_API carreau_status carreau_geometry_info(carreau_session* session, int64
  * carreau_model_... are about its faces alone. They take, and callbacks get, its own references; sentences and results
  * have the references of the session. With carreau_geometry_cancel the session is as it was before; carreau_last_error
  * keeps the sentence of the call before. Calls that need the whole model fail in between (SEQUENCE). Errors of
- * carreau_geometry_begin: ARGUMENT, as carreau_set_cad, SEQUENCE; of carreau_geometry_end: SEQUENCE, MODEL (no face, a
- * reference that is negative, or too large); the session is then as before carreau_geometry_begin. Runs report all
+ * carreau_geometry_begin: ARGUMENT, as carreau_set_cad, SEQUENCE. Errors of carreau_geometry_end: SEQUENCE, MODEL (no face, a
+ * reference that is negative, or too large). The session is then as before carreau_geometry_begin. Runs report all
  * other faults of the faces. */
 CARREAU_API carreau_status carreau_geometry_begin(carreau_session* session, const carreau_cad* callbacks);
 CARREAU_API carreau_status carreau_geometry_end(carreau_session* session);
@@ -90,7 +90,7 @@ typedef struct carreau_bezier {
  * patch), SEQUENCE (see carreau_geometry_begin). */
 CARREAU_API carreau_status carreau_add_bezier(carreau_session* session, const carreau_bezier* bezier);
 
-/* Adds the Bezier patches of a file .bpt: the number of patches, then for each m n and its control points; sides that
+/* Adds the Bezier patches of a file .bpt: the number of patches, then for each m n and its control points. Sides that
  * meet are found when a mesh is made. Errors: as above, FILE (with the line). */
 CARREAU_API carreau_status carreau_load_bezier(carreau_session* session, const char* path);
 
@@ -125,8 +125,8 @@ CARREAU_API carreau_status carreau_add_molecule(carreau_session* session, const 
                                                 int64_t n, const double centers[], const double radii[]);
 
 /* Adds the surface of the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are Bondi's,
- * for elements that he lacks the radii of Alvarez and others (cpp/io/molecule/elements.h);
- * waters and all but the first of alternate locations are left out, and messages report it. References of faces are the
+ * for elements that he lacks the radii of Alvarez and others (cpp/io/molecule/elements.h).
+ * Waters and all but the first of alternate locations are left out, and messages report it. References of faces are the
  * serial numbers of .pdb and .cif where these are positive and different, and names of faces are residues.
  * Errors: as above, FILE. */
 CARREAU_API carreau_status carreau_load_molecule(carreau_session* session, const carreau_molecule_options* options,
@@ -319,10 +319,10 @@ typedef struct carreau_triangles {
  * plane. A smooth surface goes through their vertices, with tangent planes that agree except on lines. Lines are borders, edges with three
  * triangles or more, edges of triangles that differ by more than the sharp angle, and edges that continue such a line. Its faces are the
  * regions between lines, or the references of the triangles where they have several (moved up when one is not positive). Curves are the
- * lines, corners points where lines end, meet or turn. Carreau joins vertices at one place, drops repeated triangles and triangles without
- * area (a corner on a longest side divides that side in the neighbours), and turns triangles that run against their neighbours; messages
- * report it. carreau_mesh_generate makes their mesh in space by all parameters of sizes; sizes that differ by direction count as their
- * least; parameter element works as on other surfaces. Errors: ARGUMENT (no triangle, an index out of range, a coordinate that is not
+ * lines, corners points where lines end, meet or turn. Carreau joins vertices at one place. It drops repeated triangles and triangles without
+ * area (a corner on a longest side divides that side in the neighbours), and turns triangles that run against their neighbours. Messages
+ * report it. carreau_mesh_generate makes their mesh in space by all parameters of sizes. Sizes that differ by direction count as their
+ * least. Parameter element works as on other surfaces. Errors: ARGUMENT (no triangle, an index out of range, a coordinate that is not
  * finite, an angle, triangles that are all of surfaces before), SEQUENCE, LIMIT.
  *
  * Several surfaces of triangles are one in space: their vertices at one place become one, so that borders with the same vertices are one
@@ -363,7 +363,7 @@ typedef struct carreau_triangles_report {
 CARREAU_API carreau_status carreau_triangles_measure(carreau_session* session, carreau_triangles_report* out_report);
 
 /* Cuts triangles into four by the middles of their edges on the smooth surface while their normals differ from it by
- * more than `angle` degrees, at most `depth` times, and puts them into a mesh that carreau_mesh_create made. Depth 0: the
+ * more than `angle` degrees, at most `depth` times. It puts them into a mesh that carreau_mesh_create made. Depth 0: the
  * repaired triangles. Edges are the edges of lines. Periodic pairs of a file .msh stay pairs. Errors: SEQUENCE (no
  * triangles were given), ARGUMENT, LIMIT (max_triangles). */
 CARREAU_API carreau_status carreau_triangles_refine(carreau_session* session, double angle, int32_t depth,
@@ -375,7 +375,7 @@ CARREAU_API carreau_status carreau_triangles_refine(carreau_session* session, do
 CARREAU_API carreau_status carreau_triangles_distances(carreau_session* session, double out_distances[2]);
 
 /* Bounds the distances over all points of both. The largest distance from the mesh to the triangles lies between out_bounds[0] and
- * out_bounds[1], rounding included; the largest distance from the triangles to the mesh lies between out_bounds[2] and out_bounds[3]. The
+ * out_bounds[1], rounding included. The largest distance from the triangles to the mesh lies between out_bounds[2] and out_bounds[3]. The
  * upper ones are larger than the lower ones by no more than the share and a millionth of the diagonal, unless that takes too long. `share`:
  * 0 stands for .01. The mesh has straight triangles. carreau_session_delivered reports these bounds with the bounds of each triangle. A
  * message warns, with the place, when the mesh is farther from the triangles than a tenth of its edges there. Errors: SEQUENCE (no
@@ -396,8 +396,8 @@ CARREAU_API carreau_status carreau_triangles_bounds(carreau_session* session, do
  * Errors: SEQUENCE (no geometry, no model, no references), ARGUMENT (no such entity, dimension, order, numbers that are not finite), MODEL,
  * CALLBACK, CANCELLED, MEMORY; BUSY inside a callback. */
 
-/* Evaluates an entity of dimension 2 or 1 at n places, n x dimension. `order` is the highest derivative, 0 to 2. out_xyz is n x 3; out_first
- * is n x dimension x 3: S_u and S_v, or dx/dt; out_second is n x 3 x 3: S_uu, S_uv, S_vv, or n x 3 for a curve. Each may be NULL, as must be
+/* Evaluates an entity of dimension 2 or 1 at n places, n x dimension. `order` is the highest derivative, 0 to 2. out_xyz is n x 3. out_first
+ * is n x dimension x 3: S_u and S_v, or dx/dt. out_second is n x 3 x 3: S_uu, S_uv, S_vv, or n x 3 for a curve. Each may be NULL, as must be
  * results above the order. */
 CARREAU_API carreau_status carreau_evaluate(carreau_session* session, int32_t dimension, int32_t reference, int64_t n,
                                             const double parameters[], int32_t order, double out_xyz[], double out_first[],
@@ -423,7 +423,7 @@ CARREAU_API carreau_status carreau_project(carreau_session* session, int32_t dim
  * distance; a face given by triangles), MODEL, CALLBACK, CANCELLED, MEMORY; BUSY inside a callback. The model does not change then. */
 CARREAU_API carreau_status carreau_model_embed_point(carreau_session* session, const double xyz[], const char* name, int32_t* out_ref);
 
-/* Embeds a polyline of n points of space, n x 3, in the faces that it lies on: the projection of its segments to the model becomes internal
+/* Embeds a polyline of n points of space, n x 3, in the faces that it lies on. The projection of its segments to the model becomes internal
  * curves, whose edges the mesh has. It crosses borders of faces, seams and internal curves, which are cut there; vertices where it turns by
  * more than 15 degrees on the surface are points. It is closed when the last point equals the first. Points must be within embed_tolerance of
  * the faces; ends within embed_tolerance of a point or curve of the model join it. If the projection jumps from one face to another, the
@@ -483,7 +483,7 @@ enum { CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2 };
 
 /* Refine the mesh of a session on its surfaces, and replace it. New vertices halve edges: on curves by arc length, on faces on the way in
  * (u, v), as far from both ends in space, on elements of second order at their nodes. Old vertices keep their numbers and places, except
- * inside faces where elements of second order are repaired or shapes fall, mostly beside curves: swaps and moves restore these, and a warning
+ * inside faces where elements of second order are repaired or shapes fall, mostly beside curves. Swaps and moves restore them, and a warning
  * names a face whose worst shape falls by half. A triangle with marked edges loses its longest edge too, and edges around new vertices are swapped where
  * shapes gain. A quadrilateral becomes four, or triangles if not all of its edges are halved. Periodic faces are divided alike.
  * Errors: ARGUMENT (no such edge or element, sizes not positive, a mesh across patches or of triangles), SEQUENCE
@@ -493,7 +493,7 @@ enum { CARREAU_MARK_EDGES = 1, CARREAU_MARK_ELEMENTS = 2 };
 CARREAU_API carreau_status carreau_mesh_halve(carreau_session* session, int32_t times);
 /* Halves n marked edges (n x 2 vertices) or all edges of n marked elements (n numbers from 0). */
 CARREAU_API carreau_status carreau_mesh_refine(carreau_session* session, int32_t kind, int64_t n, const int32_t marks[]);
-/* Halves edges until none is longer than sqrt(2) of the size at its ends; `sizes` are model lengths at the n vertices of the mesh; of elements
+/* Halves edges until none is longer than sqrt(2) of the size at its ends. `sizes` are model lengths at the n vertices of the mesh; of elements
  * of second order at the corners, which come first. */
 CARREAU_API carreau_status carreau_mesh_refine_sizes(carreau_session* session, int64_t n, const double sizes[]);
 
@@ -504,8 +504,8 @@ enum { CARREAU_EQUIDISTANT = 0, CARREAU_GAUSS_LOBATTO = 1 };
 
 /* Makes elements of order 2 to 4 over the elements of the session's mesh: best over a mesh of order 2 (parameter element), whose
  * sizes were chosen for curved elements. They last until the mesh changes. Nodes of curves divide the arc length, other nodes are
- * closest points of chords and of the polynomials that the edges imply. Bernstein coefficients of the Jacobian prove the elements valid; in
- * elements that are not, inner nodes move, then nodes of inner edges; at last carreau_mesh_refine halves the edges of elements that stay
+ * closest points of chords and of the polynomials that the edges imply. Bernstein coefficients of the Jacobian prove the elements valid. In
+ * elements that are not, inner nodes move, then nodes of inner edges. At last carreau_mesh_refine halves the edges of elements that stay
  * invalid, up to four times. *out_invalid (may be NULL) counts the elements that are invalid then; a warning names the first. Errors: ARGUMENT (order, places, a mesh across patches or of triangles), SEQUENCE (no mesh yet),
  * CALLBACK, CANCELLED, MEMORY. */
 CARREAU_API carreau_status carreau_raise_order(carreau_session* session, int32_t order, int32_t places, int64_t* out_invalid);

@@ -55,6 +55,7 @@ class DifferenceCad : public Cad {
   class BoundaryPlaces {
    public:
     void add(const Vec2& uv) {
+      if (!is_finite(uv)) return;  // NaN has no order
       const std::unique_lock lock(mutex_);
       places_.insert({uv.x(), uv.y()});
     }

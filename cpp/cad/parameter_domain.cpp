@@ -33,9 +33,6 @@ BoxTree::Box box_around(const Vec2& a, const Vec2& b, double margin) {
   return box;
 }
 
-/// Share of a chord. Curves leave the chords of their supports by less; nearer places are decided by the curve itself.
-/// [Projector.TrimmedPlane]
-constexpr double beside_chord = 0.05;
 /// Share of a chord: places on both sides of its middle, by which a curve that is given twice is found.
 constexpr double beside_middle = 1e-6;
 /// Share of the extents, and of a chord: places of a curve after its calculation.

@@ -17,6 +17,9 @@ namespace carreau {
 
 /// Gives the ends of curves that are nearest to each other, in shares of the extents of all, one point: the chords form loops then.
 void join_ends(std::vector<BoundaryCurve>& boundary);
+/// Share of a chord. Curves leave the chords of their supports by less; nearer places are decided by the curve itself.
+/// [Projector.TrimmedPlane]
+inline constexpr double beside_chord = 0.05;
 /// The lowest and highest parameters of the samples.
 std::pair<Vec2, Vec2> box_of(std::span<const BoundaryCurve> boundary);
 
@@ -45,7 +48,8 @@ class ParameterDomain {
   BoxTree tree_;
 };
 
-/// The domain of a face whose boundary is not a rectangle. Answers from several threads if the host does. Far from the boundary the polygon of the supports decides, near it the curves themselves.
+/// The domain of a face whose boundary is not a rectangle. Far from the boundary the polygon of the supports decides, near it the curves
+/// themselves. Answers from several threads if the host does.
 class TrimmedDomain {
  public:
   /// `boundary`: all curves around the face. Ends of curves that are apart in the plane are joined with the nearest other end.

@@ -20,6 +20,9 @@ namespace {
 
 using namespace thresholds::control_space;
 
+// Samples that a split takes at most: 4 middles, 4 centres, 8 boundary vertices.
+constexpr double costliest_split = 16;
+
 // Numbers of cells are computed from metrics, which must be finite.
 void require_finite(Metric2 m, const Vec2& uv) {
   if (!std::isfinite(m.a) || !std::isfinite(m.b) || !std::isfinite(m.c))
@@ -88,8 +91,7 @@ void ControlSpaceSampling::look_at_probe_points() {
     }
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    // A split costs at most 16 samples (4 middles, 4 centres, 8 boundary vertices), and a test 3.
-    if (cells.empty() || samples_left() < 16 * static_cast<double>(cells.size())) return;
+    if (cells.empty() || samples_left() < costliest_split * static_cast<double>(cells.size())) return;
     balance_cells(refine(cells));
   }
 }
@@ -368,7 +370,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   cut(may, samples_for_smooth_fields() - spent, usual_cost);
   crowd.insert(crowd.end(), must.begin(), must.end());
   crowd.insert(crowd.end(), may.begin(), may.end());
-  cut(crowd, samples_left() - 3 * static_cast<double>(untested), 16);
+  cut(crowd, samples_left() - 3 * static_cast<double>(untested), costliest_split);  // a test costs 3
   std::sort(crowd.begin(), crowd.end());
   return crowd;
 }

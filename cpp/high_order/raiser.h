@@ -133,7 +133,7 @@ class Raiser {
   };
   // Tables of lengths have placed nodes of curves; images of nodes have the places of the images, first on the roots of classes.
   void follow_on_curves();
-  // True: by more than rounding.
+  // Returns whether the node has moved by more than rounding.
   bool move_on_curve(std::int32_t node, const CurvePlace& place, std::int32_t master, const Isometry& map, double exact);
 
   // Repairs have moved nodes of a face and of its image each in their own way: the image follows.

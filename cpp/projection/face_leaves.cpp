@@ -203,7 +203,7 @@ void add_curve(int face, int curve, const CurveSupport& support, std::vector<Cur
   for (std::size_t i = 1; i < support.t.size(); ++i) length += norm(support.xyz[i] - support.xyz[i - 1]);
   for (std::size_t i = 1; i < support.t.size(); ++i)
     to.push_back({face, curve, support.t[i - 1], support.t[i], support.t.front(), support.t.back(), support.xyz[i - 1], support.xyz[i],
-                  limit::beside_chord * norm(support.xyz[i] - support.xyz[i - 1]) + 1e-5 * length});
+                  beside_chord * norm(support.xyz[i] - support.xyz[i - 1]) + 1e-5 * length});
 }
 
 /// Points of a parallelogram are no farther from its nearest corner than half of its longer diagonal.

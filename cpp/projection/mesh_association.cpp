@@ -70,13 +70,13 @@ MeshAssociation associate(const SurfaceMesh& mesh, std::span<const CurveParamete
         if (mesh.independent) all.cell_faces.push_back(mesh.faces[uv_face(f, cell.nodes[i])].shown_ref());
       }
   }
-  std::vector<bool> settled(all.entities.size());  // a vertex that has left one of its curves lies on the curve that has its parameter
+  NodesOfCurves nodes(all.entities.size());
   for (std::size_t c = 0; c < mesh.curves.size(); ++c) {
     const CurveMesh& curve = mesh.curves[c];
     const std::int32_t ref = curve.shown_ref();
     const auto put = [&](std::int32_t node, double t) {
-      if (all.entities[node].dimension == 2 || (std::isfinite(t) && !settled[node])) all.entities[node] = {1, ref};
-      if (std::isfinite(t)) settled[node] = true, all.curves.push_back({node, ref, t});
+      if (nodes.takes(static_cast<std::size_t>(node), all.entities[node], t)) all.entities[node] = {1, ref};
+      if (std::isfinite(t)) all.curves.push_back({node, ref, t});
     };
     const bool known = c < curves.size() && curves[c].t.size() == curve.vertices.size();
     for (std::size_t k = 0; k < curve.vertices.size(); ++k) put(curve.vertices[k], known ? curves[c].t[k] : nan);

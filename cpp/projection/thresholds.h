@@ -36,7 +36,4 @@ inline constexpr double regular_hessian = 1e-3;
 /// Ratio of the eigenvalues. Smaller ones, and negative ones, are replaced.
 inline constexpr double smallest_eigenvalue = 1e-6;
 
-/// Share of a chord. Curves leave the chords of their supports by less. [Projector.TrimmedPlane]
-inline constexpr double beside_chord = 0.05;
-
 }  // namespace carreau::thresholds::projection

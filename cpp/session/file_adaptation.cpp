@@ -271,7 +271,7 @@ Solution in_dimension(const Solution& fields, int dimension, const std::string& 
   return result;
 }
 
-/// Returns the number of vertices outside. One process of a executor writes. `values`: the values of `fields` at the nodes
+/// Returns the number of vertices outside. One process of an executor writes. `values`: the values of `fields` at the nodes
 /// of `from`.
 std::int64_t write_transferred(Session& session, const SurfaceMesh& from, const std::vector<double>& values, const Solution& fields,
                                const std::string& sol_path, const std::string& out_path, const Executor& executor) {

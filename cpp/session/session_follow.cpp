@@ -43,6 +43,18 @@ class TrialMonitor final : public Monitor {
   Monitor& whole_;
 };
 
+/// The model of a mesh, to evaluate it again. Keeps a reference to `meshed`.
+struct KnownModel {
+  explicit KnownModel(const Meshed& meshed)
+      : whole(*meshed.cad), cad(whole, parts_of(meshed.model)), model{meshed.model, meshed.topology, meshed.supports.of_face, cad},
+        rules(meshed.model, meshed.topology, cad, meshed.options.size) {}
+
+  CheckedCad whole;
+  PartCad cad;
+  CurveModel model;
+  SizeRules rules;
+};
+
 bool has_new_reasons(const SurfaceMesh& before, const SurfaceMesh& after) {
   return !std::equal(before.faces.begin(), before.faces.end(), after.faces.begin(), after.faces.end(),
                      [](const FaceMesh& p, const FaceMesh& q) { return p.why == q.why; });
@@ -93,14 +105,10 @@ void Session::refine_mesh(const RefineRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   require_faces_with_uv(s.result, s.meshed, "refined");
   PartMonitor run(s.monitor, 0, 1);
-  const Meshed& meshed = s.meshed;
-  CheckedCad whole_cad(*meshed.cad);
-  PartCad cad(whole_cad, parts_of(meshed.model));
-  const CurveModel model{meshed.model, meshed.topology, meshed.supports.of_face, cad};
-  const SizeRules rules(meshed.model, meshed.topology, cad, meshed.options.size);
+  const KnownModel known(s.meshed);
   CompositeResult result = s.result;
-  carreau::refine_mesh(model, rules, meshed.options, request, run, result);
-  result.report.calls = cad.counts();
+  carreau::refine_mesh(known.model, known.rules, s.meshed.options, request, run, result);
+  result.report.calls = known.cad.counts();
   result.report.seconds_total = seconds_since(start);
   keep_refined(std::move(result), run);
   run.progress(Phase::idle, 0, 1);
@@ -126,34 +134,30 @@ const HighOrderMesh& Session::raise_order(int order, NodePlaces places) {
   (void)mesh();
   require_faces_with_uv(s.result, s.meshed, "raised in order");
   PartMonitor run(s.monitor, 0, 1);
-  const Meshed& meshed = s.meshed;
-  CheckedCad whole_cad(*meshed.cad);
-  PartCad cad(whole_cad, parts_of(meshed.model));
-  const CurveModel model{meshed.model, meshed.topology, meshed.supports.of_face, cad};
-  const SizeRules rules(meshed.model, meshed.topology, cad, meshed.options.size);
-  HighOrderMesh made = carreau::raise_order(model, s.result, order, places, false, run);
+  const KnownModel known(s.meshed);
+  HighOrderMesh made = carreau::raise_order(known.model, s.result, order, places, false, run);
   std::optional<CompositeResult> finer;
   TrialMonitor trial(run);
   for (int round = 0; round < thresholds::high_order::max_divisions && !made.invalid.empty() && s.result.mesh.periodic.empty(); ++round) {
     CompositeResult next = finer ? *finer : s.result;
-    carreau::refine_mesh(model, rules, meshed.options, {.edges = made.coarse}, trial, next);
+    carreau::refine_mesh(known.model, known.rules, s.meshed.options, {.edges = made.coarse}, trial, next);
     if (has_new_reasons(s.result.mesh, next.mesh)) break;  // elements of order 2 have become invalid
-    HighOrderMesh again = carreau::raise_order(model, next, order, places, false, run);
+    HighOrderMesh again = carreau::raise_order(known.model, next, order, places, false, run);
     if (again.invalid.size() >= made.invalid.size()) break;
     made = std::move(again), finer = std::move(next);
   }
-  if (!made.invalid.empty()) made = carreau::raise_order(model, finer ? *finer : s.result, order, places, true, run);
+  if (!made.invalid.empty()) made = carreau::raise_order(known.model, finer ? *finer : s.result, order, places, true, run);
   if (finer) keep_refined(std::move(*finer), run);
   made.names = names();
-  show_points(meshed.model, made.corner_refs);
+  show_points(s.meshed.model, made.corner_refs);
   if (!made.invalid.empty()) {
     const auto n = static_cast<std::size_t>(made.invalid.front());
     const std::size_t triangles = made.triangle_refs.size();
     const auto p = static_cast<std::size_t>(order);
     const std::int32_t corner = n < triangles ? made.triangles[n * (p + 1) * (p + 2) / 2] : made.quads[(n - triangles) * (p + 1) * (p + 1)];
     const int face = n < triangles ? made.triangle_refs[n] : made.quad_refs[n - triangles];
-    s.monitor.message(Level::warning, Where{.face = face}.prefix() + std::to_string(made.invalid.size()) + " elements of order " + std::to_string(order) +
-                                          " are invalid, the first one at " + format_point(made.nodes[corner]));
+    s.monitor.message(Level::warning, Where{.face = face}.prefix() + std::to_string(made.invalid.size()) + (made.invalid.size() == 1 ? " element" : " elements") + " of order " +
+                                          std::to_string(order) + (made.invalid.size() == 1 ? " is invalid, at " : " are invalid, the first one at ") + format_point(made.nodes[corner]));
   }
   s.raised = std::move(made);
   run.progress(Phase::idle, 0, 1);

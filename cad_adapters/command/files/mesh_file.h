@@ -23,6 +23,7 @@ inline double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * 
 inline Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+inline double triple(const Point& a, const Point& b, const Point& c) { return dot(a, cross(b, c)); }
 /// A vector of length 1; (0, 0, 1) for the zero vector.
 inline Point unit(const Point& a) {
   const double length = std::sqrt(dot(a, a));

@@ -75,11 +75,6 @@ class SolidShells {
   }
 
  private:
-  static Point minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-  static double dot(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-  static double triple(const Point& p, const Point& q, const Point& r) {
-    return p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
-  }
   std::int32_t root(std::int32_t v) {
     while (parent_[static_cast<std::size_t>(v)] != v) {
       std::int32_t& up = parent_[static_cast<std::size_t>(v)];
@@ -121,10 +116,6 @@ std::string list_of_faces(const std::set<std::int32_t>& faces) {
   for (auto face = faces.begin(); face != faces.end() && k < listed; ++face, ++k) text += (k > 0 ? ", " : "") + std::to_string(*face);
   return faces.size() > listed ? text + " and " + std::to_string(faces.size() - listed) + " more" : text;
 }
-
-}  // namespace
-
-namespace {
 
 std::string name_of_solid(const SolidSurface& surface, std::int32_t solid) {
   const auto found = surface.solids.find(solid);

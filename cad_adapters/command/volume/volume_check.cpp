@@ -16,15 +16,9 @@ constexpr double moved_tolerance = 1e-12;   // of the diagonal: engines print 16
 constexpr double volume_tolerance = 1e-10;  // of a solid's volume
 constexpr double least_jacobian = 1e-3;     // of the straight element's, at its nodes: elements below are straightened
 
-using Vector = std::array<double, 3>;
+using Vector = Point;
 
-Vector minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-Vector cross(const Vector& p, const Vector& q) {
-  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-double dot(const Vector& p, const Vector& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 double length(const Vector& p) { return std::sqrt(dot(p, p)); }
-double triple(const Vector& p, const Vector& q, const Vector& r) { return dot(p, cross(q, r)); }
 
 std::string text_of(const Point& p) {
   char text[100];

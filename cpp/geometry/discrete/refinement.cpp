@@ -33,10 +33,10 @@ bool is_of_itself(const PeriodicLink& link) { return link.dimension == 1 && link
 /// found by places.
 class Images {
  public:
-  Images(const std::vector<PeriodicLink>& links, const std::vector<Vec3>& vertices) : links_(links), image_(links.size()) {
+  Images(const std::vector<PeriodicLink>& links, const RefinedMesh& mesh) : links_(links), image_(links.size()) {
     for (std::size_t i = 0; i < links.size(); ++i) {
       for (const auto& [slave, master] : links[i].nodes) image_[i].emplace(master, slave);
-      if (is_of_itself(links[i])) find_by_place(i, vertices);
+      if (is_of_itself(links[i])) find_by_place(i, mesh);
     }
   }
 
@@ -52,18 +52,19 @@ class Images {
   }
 
  private:
-  void find_by_place(std::size_t i, const std::vector<Vec3>& vertices) {
+  void find_by_place(std::size_t i, const RefinedMesh& mesh) {
     std::set<std::int32_t> nodes;
     for (const PeriodicLink& link : links_)
       if (is_of_itself(link) && link.slave == links_[i].slave)
         for (const auto& pair : link.nodes) nodes.insert(pair.begin(), pair.end());
     double shortest = infinity;
-    for (const std::int32_t v : nodes)
-      for (const std::int32_t w : nodes)
-        if (v < w) shortest = std::min(shortest, norm(vertices[index(v)] - vertices[index(w)]));
-    const NodesByPlace::Positions position = [&](std::int32_t v) { return vertices[index(v)]; };
+    const NodesByPlace::Positions position = [&](std::int32_t v) { return mesh.vertices[index(v)]; };
+    for (const auto& c : mesh.triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const std::int32_t v = c[k], w = c[(k + 1) % 3]; nodes.contains(v) && nodes.contains(w)) shortest = std::min(shortest, norm(position(v) - position(w)));
+    if (shortest == infinity) return;
     const std::vector<std::int32_t> list(nodes.begin(), nodes.end());
-    const NodesByPlace places(list, position, static_cast<std::int32_t>(vertices.size()), shares::small * shortest);
+    const NodesByPlace places(list, position, static_cast<std::int32_t>(mesh.vertices.size()), shares::small * shortest);
     for (const std::int32_t v : list)
       places.for_near(links_[i].map(position(v)), v, [&](std::int32_t w) { image_[i].emplace(v, w); });
   }
@@ -75,7 +76,7 @@ class Images {
 class Refiner {
  public:
   Refiner(const DiscreteSurface& surface, const RefinementWish& wish, const RefinementLimits& limits, Monitor& monitor, std::vector<PeriodicLink> periodic)
-      : surface_(surface), wish_(wish), limits_(limits), monitor_(monitor), mesh_(unrefined(surface)), links_(std::move(periodic)), images_(links_, mesh_.vertices) {}
+      : surface_(surface), wish_(wish), limits_(limits), monitor_(monitor), mesh_(unrefined(surface)), links_(std::move(periodic)), images_(links_, mesh_) {}
 
   RefinedMesh run() {
     for (int depth = 0;; ++depth) {
@@ -287,7 +288,10 @@ class PairsOfLines {
  public:
   PairsOfLines(const RefinedMesh& mesh, const std::vector<std::int32_t>& corner_ref) : mesh_(mesh), corner_ref_(corner_ref) {
     for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-      for (std::size_t k = 1; k < mesh.lines[l].size(); ++k) line_of_.emplace(key_of(mesh.lines[l][k - 1], mesh.lines[l][k]), l);
+      for (std::size_t k = 0; k < mesh.lines[l].size(); ++k) {
+        if (k > 0) line_of_.emplace(key_of(mesh.lines[l][k - 1], mesh.lines[l][k]), l);
+        lines_at_[mesh.lines[l][k]].insert(l);
+      }
   }
 
   std::vector<PeriodicLink> run() {
@@ -360,16 +364,16 @@ class PairsOfLines {
     }
   }
   [[nodiscard]] std::size_t line_with(const std::array<std::int32_t, 2>& pair) const {
-    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
-      const std::vector<std::int32_t>& line = mesh_.lines[l];
-      if (std::ranges::find(line, pair[0]) != line.end() && std::ranges::find(line, pair[1]) != line.end()) return l;
-    }
-    return mesh_.lines.size();
+    const auto first = lines_at_.find(pair[0]), second = lines_at_.find(pair[1]);
+    if (first == lines_at_.end() || second == lines_at_.end()) return mesh_.lines.size();
+    const auto common = std::ranges::find_if(first->second, [&](std::size_t l) { return second->second.contains(l); });
+    return common == first->second.end() ? mesh_.lines.size() : *common;
   }
 
   const RefinedMesh& mesh_;
   const std::vector<std::int32_t>& corner_ref_;
   std::unordered_map<std::uint64_t, std::size_t> line_of_;  // by edge; never iterated
+  std::map<std::int32_t, std::set<std::size_t>> lines_at_;  // by vertex
   std::map<int, int> lines_, corners_;  // masters by slave
   std::set<int> themselves_;
   std::vector<PeriodicLink> found_;

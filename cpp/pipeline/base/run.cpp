@@ -23,8 +23,8 @@ using namespace thresholds::patches;
 std::int64_t triangles_by_memory() {
 #if defined(__unix__)
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-    // A triangle may cost 200 bytes while a patch is meshed, with the mesh itself and copies. Twice the memory of a whole process
-    // (docs/scale.md) leaves room for metrics, curved elements and copies of hosts.
+    // A triangle may cost 200 bytes while a patch is meshed, with the mesh itself and copies. Twice the memory of a whole process leaves
+    // room for metrics, curved elements and copies of hosts.
     // [Memory.AMillionTrianglesNeedAtMostFortyBytesEachAboveTheMesh]
   if (pages > 0 && page > 0)
     return static_cast<std::int64_t>(0.8 * static_cast<double>(pages) * static_cast<double>(page) / 200);

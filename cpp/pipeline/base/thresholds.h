@@ -22,8 +22,6 @@ inline constexpr double gentle = 1.5;
 /// Ratio of triangles of a mesh that follows the surface so. [Leaning.TrianglesOfRatio100LieOnTheSurface]
 inline constexpr double max_growth_bounded = 64;
 
-// Jumps of a surface (face_job)
-
 // Short edges (patch_step)
 /// Share of the size prescribed at both ends. Sizes grow from edges that are shorter than this share. A curve cut into
 /// one edge or into several has edges of at least 0.7 and 0.8 of the prescribed size.

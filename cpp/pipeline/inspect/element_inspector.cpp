@@ -231,16 +231,10 @@ class ElementInspector final : public Inspector {
 
   std::optional<RefinementRequests> finer(const CompositeRun& run) {
     if (round_++ == max_divisions || *left_ < 0) return {};
-    RefinementRequests requests;
-    requests.sizes.resize(run.model.faces.size());
-    std::vector<CurveEdge> coarse;
-    for (const InvalidElement& element : now_.elements) {
-      std::vector<EdgeSizes::Source>& sizes = requests.sizes[element.face];
-      sizes.insert(sizes.end(), element.sides.begin(), element.sides.end());
-      coarse.insert(coarse.end(), element.coarse.begin(), element.coarse.end());
-    }
-    requests.segments = segments_of(run, std::move(coarse));
-    return requests;
+    FaultRequests collected(run, 0);
+    for (const InvalidElement& element : now_.elements) collected.add(element);
+    std::set<int> faces;
+    return collected.take(faces);
   }
 
   // Nodes bend triangles of order 2: their straight triangles may cross.

@@ -81,21 +81,7 @@ std::map<int, std::string> Session::project(int dimension, int ref, std::span<co
 }
 
 std::vector<MeshEntity> Session::node_entities() const {
-  const SurfaceMesh& made = mesh();
-  std::vector<MeshEntity> entities = entities_of_nodes(made, [this](std::size_t face, std::int32_t node) { return uv_face(face, node); });
-  // A vertex can leave one of its curves along the next one, where both meet smoothly: it lies on the curve that has its parameter.
-  const std::vector<CurveParameters>& known = state_->result.curve_parameters;
-  std::vector<bool> settled(made.vertices.size());
-  for (std::size_t c = 0; c < std::min(known.size(), made.curves.size()); ++c) {
-    const CurveMesh& curve = made.curves[c];
-    if (known[c].t.size() != curve.vertices.size()) continue;
-    for (std::size_t k = 0; k < curve.vertices.size(); ++k) {
-      const auto v = static_cast<std::size_t>(curve.vertices[k]);
-      if (entities[v].dimension != 1 || settled[v] || !std::isfinite(known[c].t[k])) continue;
-      entities[v].ref = curve.ref, settled[v] = true;
-    }
-  }
-  return entities;
+  return entities_of_nodes(mesh(), [this](std::size_t face, std::int32_t node) { return uv_face(face, node); }, state_->result.curve_parameters);
 }
 
 std::vector<CurveParameters> Session::curve_parameters() const {

@@ -14,7 +14,7 @@
 
 namespace carreau {
 
-/// The i below n for which holds(i), ascending. All processes of a executor, which must hold equal values, search long
+/// The i below n for which holds(i), ascending. All processes of an executor, which must hold equal values, search long
 /// lists together. The result does not depend on the executor. `step`: of Team::exchange.
 template <typename Holds>
 std::vector<std::int32_t> all_that_hold(std::size_t n, const Executor& executor, std::string_view step, Monitor& monitor,

@@ -41,7 +41,7 @@ class Refinement {
     depth_.assign(mesh_.plane.triangles.size(), 0);
     // A bend needs two or three halvings. More divisions show a surface that is rough at every scale.
     constexpr std::size_t max_divisions = 32;
-    // A division adds two triangles: guaranteed planes at most double the mesh.
+    // A division adds two triangles: guaranteed planes at most treble the mesh.
     const std::size_t most = std::isfinite(kept_.triangle_angle_deg) ? mesh_.plane.triangles.size() : max_divisions * wrong.size();
     left_ = Budget(static_cast<std::int64_t>(std::min(most, max_divisions * wrong.size())));
     std::vector<int> still = improve_ring_by_ring(

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/bucket_sort.h"
 #include "surface/remesh/base/thresholds.h"
 #include "surface/remesh/strategies.h"
 
@@ -57,23 +58,6 @@ void sort_uniquely(std::vector<T>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-// Edges are distributed to their first vertices and sorted there, in linear time.
-std::vector<MeshEdge> sorted_uniquely(const std::vector<MeshEdge>& edges, std::size_t vertices) {
-  std::vector<std::size_t> next(vertices + 1, 0);
-  for (const MeshEdge& e : edges) ++next[static_cast<std::size_t>(e[0]) + 1];
-  for (std::size_t v = 0; v < vertices; ++v) next[v + 1] += next[v];
-  std::vector<MeshEdge> sorted(edges.size());
-  for (const MeshEdge& e : edges) sorted[next[e[0]]++] = e;
-  auto first = sorted.begin();
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(next[v]);
-    std::sort(first, last);
-    first = last;
-  }
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  return sorted;
-}
-
 FixedTriangles fixed_triangles(const SurfaceMesh& mesh, const FixedParts& fixed) {
   FixedTriangles found;
   std::vector<char> of_curve(mesh.vertices.size(), 0), stays(mesh.vertices.size(), 0);
@@ -86,7 +70,6 @@ FixedTriangles fixed_triangles(const SurfaceMesh& mesh, const FixedParts& fixed)
   }
   sort_uniquely(found.border);
   sort_uniquely(found.ends);
-  std::vector<MeshEdge> inner;
   for (std::size_t f = 0; f < fixed.faces.size(); ++f) {
     if (fixed.faces[f] == 0) continue;
     const FaceMesh& face = mesh.faces[f];
@@ -94,11 +77,12 @@ FixedTriangles fixed_triangles(const SurfaceMesh& mesh, const FixedParts& fixed)
       for (std::size_t i = 0; i < 3; ++i) {
         const MeshEdge edge = mesh_edge(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]);
         const bool of_curves = of_curve[edge[0]] != 0 && of_curve[edge[1]] != 0;
-        if (!of_curves || !std::ranges::binary_search(found.border, edge)) inner.push_back(edge);
+        if (!of_curves || !std::ranges::binary_search(found.border, edge)) found.inner.push_back(edge);
         stays[face.vertex[t[i]]] = 1;
       }
   }
-  found.inner = sorted_uniquely(inner, mesh.vertices.size());
+  bucket_sort(found.inner, mesh.vertices.size(), [](const MeshEdge& e) { return e[0]; });
+  found.inner.erase(std::unique(found.inner.begin(), found.inner.end()), found.inner.end());
   for (std::size_t v = 0; v < stays.size(); ++v)
     if (stays[v] != 0) found.vertices.push_back(static_cast<std::int32_t>(v));
   return found;

@@ -288,7 +288,7 @@ TEST(DifferenceCad, NeverLeavesADomainWhoseBoundaryIsKnown) {
     }
 }
 
-/// A crescent: the unit disc without another one at .6, with corners of 35 degrees.
+/// A crescent: the unit disc without a disc at .6, with corners of 35 degrees.
 Vec2 on_crescent(int ic, double t) { return ic == 1 ? on_circle(1, t) : Vec2{0.6 - std::cos(t), std::sin(t)}; }
 bool in_crescent(Vec2 p) { return norm(p) <= 1 && norm(p - Vec2{0.6, 0}) >= 1; }
 std::vector<BoundaryCurve> around_crescent() {
